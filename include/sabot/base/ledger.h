@@ -1,0 +1,23 @@
+#ifndef sabot_base_ledger_h
+#define sabot_base_ledger_h
+
+#include "sabot/base/exact_sum.h"
+
+namespace sabot
+{
+/**
+ * Where the energy is [J]. Internal energy is the work of the stresses
+ * (trapezoidal in time), so it holds elastic energy, plastic work and bulk
+ * viscosity; contact is minus the work of the contact forces without their
+ * tangential part, which is friction. External is the work done on the scene.
+ */
+struct EnergyLedger
+{
+  ExactSum kinetic, internal, stabilization, hourglass, contact, friction,
+      external;
+  /** Part of internal that was dissipated by plastic flow (information). */
+  ExactSum plastic_work;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,102 @@
+#ifndef sabot_bodies_body_h
+#define sabot_bodies_body_h
+
+#include "sabot/base/ledger.h"
+#include "sabot/base/measures.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/base/state_visitor.h"
+
+#include <mpi.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** A proposal for the stable step and who makes it. */
+struct StableStep
+{
+  double dt = std::numeric_limits<double>::max(); // [s]
+  GlobalIndex item = -1;                          // node, particle or cell
+};
+
+/** What other bodies may touch; indices are local. Faces are quadrilaterals
+    with outward normal by the right-hand rule. */
+struct ContactSurface
+{
+  std::vector<std::array<std::size_t, 4>> faces; // any local node index
+  std::vector<GlobalIndex> face_id;              // same on every rank
+  std::vector<std::size_t> nodes;                // owned, may touch faces
+  double bulk_modulus = 0.;                      // [Pa], for the penalty
+  double spacing = 0.;                           // [m], typical node distance
+};
+
+/**
+ * Anything with nodes that moves. The integrator, the couplings and the output
+ * see bodies through this class only.
+ *
+ * A body is made in two phases: its constructor lays out all nodes, the same
+ * on every rank (partition_points()); distribute() then keeps what this rank
+ * owns.
+ */
+class Body
+{
+public:
+  Body(const std::string &name, const int id) : name(name), id(id) {}
+  virtual ~Body() = default;
+
+  const std::string name;
+  const int id;
+
+  /** Positions of all nodes in global order, before distribute(). */
+  virtual const std::vector<std::array<double, 3>> &partition_points() const = 0;
+  /** Cost of one node, relative to others, for the partition. */
+  virtual double partition_weight() const = 0;
+  /** Keep the nodes whose owner is this rank; all ranks call it. */
+  virtual void distribute(const std::vector<int> &owner,
+                          MPI_Comm communicator) = 0;
+
+  NodalState &nodes() { return nodal_state; }
+  const NodalState &nodes() const { return nodal_state; }
+
+  /** Velocities that are prescribed, e.g. of clamped nodes. */
+  virtual void impose_velocities(const double time) = 0;
+  /** Copy positions and velocities that the forces need to other ranks. */
+  virtual void update_ghosts() = 0;
+  /** Set force of every owned node to external - internal - stabilization.
+      @p dt is the step that led to the current positions (0 at the start).
+      Collective. */
+  virtual void compute_forces(const double time, const double dt) = 0;
+  /** Largest stable step seen from this rank, in the current state. */
+  virtual StableStep stable_step() const = 0;
+  /** Work done between steps: kernel updates, bond failure, erosion.
+      Collective. */
+  virtual void update_topology(const unsigned int step, const double time) = 0;
+
+  /** Add this rank's share. */
+  virtual void add_energies(EnergyLedger &ledger) const = 0;
+  /** Mass, velocity, energies, extremes over the whole body, plus what the
+      kind of body knows (e.g. bonds broken). Collective, same on all ranks. */
+  virtual Measures measure() const = 0;
+  virtual OutputMesh output_mesh() const = 0;
+  /** Everything that a restart needs. */
+  virtual void visit_state(StateVisitor &visitor) = 0;
+
+  virtual ContactSurface contact_surface() const = 0;
+  /** Changes whenever contact_surface() would return something new. */
+  virtual unsigned int contact_surface_version() const { return 0; }
+
+  /** "particles" or "cells", the number over all ranks, and the name of the
+      timer of the force loop ("spg step", "fem step"). */
+  virtual std::string item_name() const = 0;
+  virtual GlobalIndex n_items() const = 0;
+  virtual std::string step_timer_name() const = 0;
+
+protected:
+  NodalState nodal_state;
+};
+} // namespace sabot
+
+#endif

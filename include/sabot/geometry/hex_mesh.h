@@ -1,0 +1,32 @@
+#ifndef sabot_geometry_hex_mesh_h
+#define sabot_geometry_hex_mesh_h
+
+#include "sabot/base/types.h"
+
+#include <array>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * A hexahedral mesh as arrays, taken once from deal.II's triangulation and
+ * DoFHandler, the same on every rank. Nodes and cells are numbered along a
+ * space-filling curve. Cells list their nodes in VTK order (0-3 around the
+ * bottom counter-clockwise seen from above, 4-7 above them).
+ */
+struct HexMesh
+{
+  std::vector<std::array<double, 3>> nodes;
+  std::vector<std::array<GlobalIndex, 8>> cells;
+  /** Mean gradient of the eight shape functions, integral(dN/dX)/V [1/m], and
+      volume [m^3] of each cell (2x2x2 Gauss points of deal.II, exact). */
+  std::vector<std::array<std::array<double, 3>, 8>> mean_gradient;
+  std::vector<double> volume;
+  /** Boundary quadrilaterals, outward normal by the right-hand rule, with the
+      boundary id of the geometry (see the function that made the mesh). */
+  std::vector<std::array<GlobalIndex, 4>> boundary_faces;
+  std::vector<unsigned int> boundary_id;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,75 @@
+#ifndef sabot_materials_material_h
+#define sabot_materials_material_h
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+class ParameterHandler;
+}
+
+namespace sabot
+{
+/** Order of symmetric tensors everywhere: xx, yy, zz, xy, yz, xz. */
+constexpr int n_symmetric = 6;
+
+/**
+ * Views of @p n material points, quadrature points or particles alike, as
+ * structure of arrays. Tensors are already rotated by the increment of
+ * rotation (Jaumann, Hughes-Winget) when a material sees them.
+ */
+struct MaterialBatch
+{
+  std::size_t n = 0;
+  double dt = 0.;                               // [s] > 0
+  const double *strain_increment[n_symmetric];  // D dt, tensor components
+  const double *jacobian;                       // det F total, new
+  double *stress[n_symmetric];                  // Cauchy [Pa], in/out
+  double *state(const std::size_t i) const { return states[i]; }
+  double *const *states;  // the material's own, n_states() arrays
+  /** out: factor theta by which the return scaled the trial deviator, 1 where
+      the step was elastic: theta = 1 - 3 G d_eps / q_trial. */
+  double *return_factor;
+  /** out: plastic work of the step per current volume [J/m^3] */
+  double *plastic_work;
+};
+
+/** A state variable of a material. */
+struct StateVariable
+{
+  std::string name, unit;
+  double initial_value = 0.;
+  /** A symmetric tensor (six consecutive arrays) is rotated with the stress. */
+  bool is_tensor = false;
+};
+
+/** A constitutive law for batches of points, the same for FEM and SPG. */
+class Material
+{
+public:
+  virtual ~Material() = default;
+  virtual double density() const = 0;       // [kg/m^3]
+  virtual double bulk_modulus() const = 0;  // [Pa]
+  virtual double shear_modulus() const = 0; // [Pa]
+  /** Dilatational wave speed sqrt((K + 4/3 G)/rho) [m/s]. */
+  double sound_speed() const;
+  /** One entry per array, except that a tensor entry stands for six. By
+      convention "effective plastic strain" and "temperature", where a law has
+      them, bear these names. */
+  virtual std::vector<StateVariable> state_variables() const = 0;
+  /** Radial return and state update; pressure = -K ln(jacobian) unless the
+      law says otherwise. */
+  virtual void update(const MaterialBatch &batch) const = 0;
+
+  /** Declare / read the entries of one material; "Model" selects the law.
+      @p path is where they stand, for messages. */
+  static void declare_parameters(dealii::ParameterHandler &prm);
+  static std::unique_ptr<Material> make(dealii::ParameterHandler &prm,
+                                        const std::string &path);
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,11 @@
+// Starts MPI once for all tests of an executable.
+#include <gtest/gtest.h>
+
+#include <deal.II/base/mpi.h>
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
