@@ -26,6 +26,12 @@ void ExactSum::add(const ExactSum &other)
   n_invalid += other.n_invalid;
 }
 
+void ExactSum::subtract(const ExactSum &other)
+{
+  sum -= other.sum;
+  n_invalid += other.n_invalid;
+}
+
 double ExactSum::value() const
 {
   if (n_invalid > 0)

@@ -1,11 +1,125 @@
 #include "sabot/materials/material.h"
 
+#include "sabot/base/error.h"
+#include "sabot/base/quantity.h"
+#include "sabot/materials/elastic_base.h"
+
 #include <cmath>
 
 namespace sabot
 {
+namespace
+{
+std::string selection()
+{
+  std::string names;
+  for (const MaterialModel &model : material_models())
+    names += (names.empty() ? "" : "|") + model.name;
+  return names;
+}
+} // namespace
+
 double Material::sound_speed() const
 {
   return std::sqrt((bulk_modulus() + 4. / 3. * shear_modulus()) / density());
+}
+
+void Material::declare_parameters(dealii::ParameterHandler &prm)
+{
+  std::string text = "Constitutive law. ";
+  for (const MaterialModel &model : material_models())
+    text += model.name + ": " + model.description + " ";
+  prm.declare_entry("Model", "Elastic",
+                    dealii::Patterns::Selection(selection()), text);
+  prm.declare_entry("Source", "", dealii::Patterns::Anything(),
+                    "Where the values come from.");
+  ElasticConstants::declare_parameters(prm);
+  for (const MaterialModel &model : material_models())
+  {
+    prm.enter_subsection(model.name);
+    model.declare(prm);
+    prm.leave_subsection();
+  }
+}
+
+std::unique_ptr<Material> Material::make(dealii::ParameterHandler &prm,
+                                         const std::string &path)
+{
+  const std::string name = prm.get("Model");
+  for (const MaterialModel &model : material_models())
+    if (model.name == name)
+      return model.make(prm, path);
+  throw InputError(path + "/Model", "no law is called \"" + name + "\"");
+}
+
+std::vector<MaterialModel> &material_models()
+{
+  static std::vector<MaterialModel> models;
+  return models;
+}
+
+RegisterMaterial::RegisterMaterial(const MaterialModel &model)
+{
+  // Kept sorted: the order of linking must not show in the manual.
+  auto &models = material_models();
+  auto position = models.begin();
+  while (position != models.end() && position->name < model.name)
+    ++position;
+  models.insert(position, model);
+}
+
+void ElasticConstants::declare_parameters(dealii::ParameterHandler &prm)
+{
+  prm.declare_entry("Density", "0",
+                    QuantityPattern(Dimension::density, 0., 1e5),
+                    "Density of the stress-free material.");
+  prm.declare_entry("Young's modulus", "0",
+                    QuantityPattern(Dimension::pressure, 0., 1e13),
+                    "Modulus in uniaxial stress.");
+  prm.declare_entry("Poisson's ratio", "0.3",
+                    QuantityPattern(Dimension::none, -0.99, 0.49999),
+                    "Below 0.5.");
+}
+
+ElasticConstants ElasticConstants::parse(const dealii::ParameterHandler &prm,
+                                         const std::string &path)
+{
+  ElasticConstants c;
+  c.density = get_quantity(prm, "Density");
+  c.young_modulus = get_quantity(prm, "Young's modulus");
+  c.poisson_ratio = get_quantity(prm, "Poisson's ratio");
+  if (c.density <= 0.)
+    throw InputError(path + "/Density", "must be set to a positive density, "
+                                        "for example 2700 kg/m^3");
+  if (c.young_modulus <= 0.)
+    throw InputError(path + "/Young's modulus",
+                     "must be set to a positive modulus, for example 70 GPa");
+  const double speed = std::sqrt(
+      (c.bulk_modulus() + 4. / 3. * c.shear_modulus()) / c.density);
+  if (speed < 100. || speed > 20000.)
+    throw InputError(path + "/Density",
+                     "density " + prm.get("Density") +
+                         " and Young's modulus " + prm.get("Young's modulus") +
+                         " give a sound speed of " + std::to_string(speed) +
+                         " m/s; expected 100 to 20000 m/s: check the units of "
+                         "both (a number alone is in kg/m^3 or Pa)");
+  return c;
+}
+
+void ElasticBase::trial_stress(const MaterialBatch &b) const
+{
+  const double two_G = 2. * G, modulus = K;
+  double *const *const s = b.stress;
+  const double *const *const e = b.strain_increment;
+  for (std::size_t k = 0; k < b.n; ++k)
+  {
+    const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.;
+    const double mean = (s[0][k] + s[1][k] + s[2][k]) / 3.;
+    const double pressure = -modulus * std::log(b.jacobian[k]);
+    for (int c = 0; c < 3; ++c)
+      s[c][k] += two_G * (e[c][k] - trace) - mean - pressure;
+    for (int c = 3; c < 6; ++c)
+      s[c][k] += two_G * e[c][k];
+  }
 }
 } // namespace sabot

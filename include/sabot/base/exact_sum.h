@@ -20,6 +20,7 @@ class ExactSum
 public:
   void add(const double value);
   void add(const ExactSum &other);
+  void subtract(const ExactSum &other);
   /** The sum, rounded to double. */
   double value() const;
   /** Sum over all ranks of every entry; all ranks must call it. */

@@ -33,6 +33,15 @@ struct ContactSurface
   double spacing = 0.;                           // [m], typical node distance
 };
 
+/** Owned nodes that have come loose (a failed bond), which may meet each other
+    again, and how stiff they are. */
+struct DebrisView
+{
+  std::vector<std::size_t> nodes; // owned, ascending
+  double young_modulus = 0.;      // [Pa]
+  double spacing = 0.;            // [m]
+};
+
 /**
  * Anything with nodes that moves. The integrator, the couplings and the output
  * see bodies through this class only.
@@ -57,6 +66,10 @@ public:
   /** Keep the nodes whose owner is this rank; all ranks call it. */
   virtual void distribute(const std::vector<int> &owner,
                           MPI_Comm communicator) = 0;
+
+  /** Owner rank of every node in global order, the same on every rank; set by
+      whoever calls distribute(). */
+  std::vector<int> node_owner;
 
   NodalState &nodes() { return nodal_state; }
   const NodalState &nodes() const { return nodal_state; }
@@ -87,6 +100,15 @@ public:
   virtual ContactSurface contact_surface() const = 0;
   /** Changes whenever contact_surface() would return something new. */
   virtual unsigned int contact_surface_version() const { return 0; }
+
+  /** Empty for a body whose parts never come loose. */
+  virtual DebrisView debris() const { return {}; }
+  /** Whether owned node @p i is still bonded to node @p j (global). */
+  virtual bool are_bonded(const std::size_t /*i*/,
+                          const GlobalIndex /*j*/) const
+  {
+    return false;
+  }
 
   /** "particles" or "cells", the number over all ranks, and the name of the
       timer of the force loop ("spg step", "fem step"). */

@@ -19,6 +19,8 @@ public:
 
   const std::string name;
 
+  /** "tie", "contact" or "self-contact": the name of its timers. */
+  virtual std::string kind() const = 0;
   /** Once, after the bodies were distributed. Collective. */
   virtual void initialize() = 0;
   /** Followers take the motion of their leaders. */

@@ -1,0 +1,71 @@
+#ifndef sabot_base_parameter_file_h
+#define sabot_base_parameter_file_h
+
+#include "sabot/base/error.h"
+#include "sabot/base/nearest_name.h"
+
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+class ParameterHandler;
+}
+
+namespace sabot
+{
+/**
+ * A parameter file in deal.II's text format with all its includes, which are
+ * looked up beside the including file, and overrides from the command line.
+ * Keeps for every entry the file and line it comes from, so that each problem
+ * is answered by one line that says where, what, and what would be right.
+ * Everything that is wrong throws InputError.
+ */
+class ParameterFile
+{
+public:
+  /** @p overrides: "Section/Sub/Name=value"; later values replace earlier
+      ones, but one file may set an entry only once. */
+  ParameterFile(const std::string &file,
+                const std::vector<std::string> &overrides);
+
+  /** Names of the subsections below @p path ("Bodies"), in order. */
+  std::vector<std::string> subsections(const std::string &path) const;
+  bool is_set(const std::string &path) const;
+  /** Text of an entry, or @p standard where it is not set. */
+  std::string value(const std::string &path, const std::string &standard) const;
+  /** "scene.prm:12" of an entry or subsection, "" where it is not set; for a
+      path that is not set, the nearest enclosing subsection that is. */
+  std::string origin(const std::string &path) const;
+
+  /** Set what the file sets. Every entry must be declared in @p prm. */
+  void parse_into(dealii::ParameterHandler &prm) const;
+
+  const std::string file_name;
+
+private:
+  struct Entry
+  {
+    std::vector<std::string> section;
+    std::string name, value, origin, file;
+  };
+  void read(const std::string &file, const std::string &included_at,
+            std::vector<std::string> &section,
+            std::vector<std::string> &open_files);
+  void add(const Entry &entry);
+
+  std::vector<Entry> entries;                // in order, each path once
+  std::map<std::string, std::size_t> number; // path -> entries
+  std::vector<std::pair<std::string, std::string>> sections; // path, origin
+};
+
+/** The declared entries as markdown: name, default, meaning, allowed values. */
+void print_manual(const dealii::ParameterHandler &prm, std::ostream &out);
+
+/** All parameters with their present values, as a parameter file. */
+void print_expanded(const dealii::ParameterHandler &prm, std::ostream &out);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,49 @@
+#ifndef sabot_bodies_body_report_h
+#define sabot_bodies_body_report_h
+
+#include "sabot/base/measures.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/materials/material.h"
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace sabot
+{
+/** Stress, von Mises, pressure and scalar state variables of the @p items of
+    arrays [component][n], as output fields. */
+void add_material_fields(std::vector<OutputField> &fields,
+                         const std::vector<std::size_t> &items,
+                         const std::size_t n, const std::vector<double> &stress,
+                         const std::vector<double> &state,
+                         const std::vector<StateVariable> &variables);
+
+/** A field with value(item, component) for @p n items. */
+template <typename Value>
+void add_field(std::vector<OutputField> &fields, const std::string &name,
+               const std::string &unit, const std::size_t n,
+               const unsigned int n_components, const Value &value)
+{
+  OutputField field{name, unit, n_components, {}};
+  field.values.reserve(n * n_components);
+  for (std::size_t i = 0; i < n; ++i)
+    for (unsigned int c = 0; c < n_components; ++c)
+      field.values.push_back(value(i, c));
+  fields.push_back(std::move(field));
+}
+
+/** Mass, velocity of the centre of mass, kinetic energy and bounding box of
+    all owned nodes. Collective, the same for every number of ranks. */
+Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator);
+
+/** Start of the array of a scalar state variable in [state][n], or null. */
+const double *find_state(const std::vector<StateVariable> &variables,
+                         const std::vector<double> &state, const std::size_t n,
+                         const std::string &name);
+
+/** Number of arrays that the state variables take. */
+std::size_t count_states(const std::vector<StateVariable> &variables);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,76 @@
+#ifndef sabot_couplings_contact_h
+#define sabot_couplings_contact_h
+
+#include "sabot/couplings/contact_search.h"
+#include "sabot/couplings/coupling.h"
+#include "sabot/couplings/node_halo.h"
+
+namespace sabot
+{
+/** Penalty law of contact. */
+struct ContactOptions
+{
+  double friction = 0.;          // Coulomb
+  double damping_fraction = 0.1; // of critical, while approaching
+  double stiffness_scale = 1.;   // of K h
+  /** Largest stiffness as a fraction of reduced mass over dt^2. */
+  double stability_fraction = 0.1;
+};
+
+/**
+ * Node-to-face penalty contact with Coulomb friction between several bodies:
+ * nodes of each body (all particles, surface nodes of hexahedra) against the
+ * boundary faces of every other. A tied pair meets only through nodes that
+ * have come loose. The force on a node with gap g < 0 is
+ * n max(0, -k g - c dg/dt), k = min(K h, 0.1 m_red/dt^2), with the reduced mass
+ * of node and face so that neither penalty nor friction can overshoot.
+ */
+class Contact : public Coupling
+{
+public:
+  Contact(const std::string &name, const std::vector<Body *> &bodies,
+          const std::vector<ContactPair> &pairs, const ContactOptions &options,
+          MPI_Comm communicator);
+
+  std::string kind() const override { return "contact"; }
+  void initialize() override;
+  void update_search(const unsigned int step, const double dt) override;
+  void add_forces(const double dt) override;
+  void accumulate_work(const double half_dt) override;
+  void add_energies(EnergyLedger &ledger) const override;
+  Measures measure() const override;
+  void visit_state(StateVisitor &visitor) override;
+
+  /** Largest penetration at the start over the nodal spacing, and the node. */
+  double initial_penetration() const { return initial_over_spacing; }
+  const NodeKey &initial_penetration_node() const { return initial_node; }
+
+private:
+  /** A node and the faces it may touch, as slots of the halo. */
+  struct Group
+  {
+    std::size_t slot;
+    std::size_t first_face, last_face;
+    double stiffness, spacing;
+  };
+  void search();
+  /** Closest of a group's faces; -1 when none. */
+  std::ptrdiff_t closest_face(const Group &group,
+                              FaceProjection &projection) const;
+
+  const std::vector<Body *> bodies;
+  const std::vector<ContactPair> pairs;
+  const ContactOptions options;
+  MPI_Comm communicator;
+  NodeHalo halo;
+  std::vector<Group> groups;
+  std::vector<std::array<std::size_t, 4>> face_slots;
+  AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
+  double skin = 0., travelled = 0.; // [m]
+  double initial_over_spacing = 0., penetration_over_spacing = 0.;
+  NodeKey initial_node{-1, 0, -1};
+  ExactSum contact_work, friction_work; // done on owned nodes [J]
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,48 @@
+#ifndef sabot_geometry_mesh_generator_h
+#define sabot_geometry_mesh_generator_h
+
+#include "sabot/geometry/hex_mesh.h"
+
+#include <string>
+
+namespace sabot
+{
+/** A box of hexahedra, uniform, or graded away from a zone that is left out. */
+struct BoxSpecification
+{
+  std::array<double, 3> centre{{0., 0., 0.}}, size{{0., 0., 0.}}; // [m]
+  double cell_size = 0.;            // [m]
+  double coarsest_cell_size = 1e30; // [m]
+  double growth_ratio = 1.;
+  bool has_zone = false;
+  std::array<double, 3> zone_centre{{0., 0., 0.}}, zone_size{{0., 0., 0.}};
+  std::string zone_path; // of the zone's body, for messages
+};
+
+/**
+ * Boundary ids: 0 to 5 for -x, +x, -y, +y, -z, +z, and 6 for the faces of the
+ * zone. Throws InputError when the zone is not inside the box.
+ */
+HexMesh make_graded_box(const BoxSpecification &box);
+
+/**
+ * A cylinder of hexahedra on an o-grid (square core, rings around it), with
+ * cells of about @p cell_size. Its polygonal cross-section is scaled to the
+ * area pi r^2, so that volume and mass are exact; the rim nodes then lie
+ * outside the circle by a fraction pi^2/(3 n^2) of r for n rim cells.
+ * Boundary ids: 0 lower end, 1 upper end, 2 side. @p axis: 0, 1, 2.
+ */
+HexMesh make_cylinder(const double radius, const double length,
+                      const unsigned int axis,
+                      const std::array<double, 3> &centre,
+                      const double cell_size);
+
+/** Grid planes between @p low and @p high: about @p fine between @p inner_low
+    and @p inner_high, which are planes themselves, then growing outwards. */
+std::vector<double> graded_planes(const double low, const double high,
+                                  const double inner_low,
+                                  const double inner_high, const double fine,
+                                  const double coarsest, const double growth);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,105 @@
+#ifndef sabot_kernels_closest_point_h
+#define sabot_kernels_closest_point_h
+
+#include "sabot/kernels/vec.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sabot
+{
+/** Closest point of a triangle as barycentric weights (Ericson, Real-Time
+    Collision Detection, 2005, 5.1.5). */
+inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
+                                                 const Vec b, const Vec c)
+{
+  const Vec ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0. && d2 <= 0.)
+    return {{1., 0., 0.}};
+  const Vec bp = p - b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0. && d4 <= d3)
+    return {{0., 1., 0.}};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0. && d1 >= 0. && d3 <= 0.)
+  {
+    const double v = d1 / (d1 - d3);
+    return {{1. - v, v, 0.}};
+  }
+  const Vec cp = p - c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0. && d5 <= d6)
+    return {{0., 0., 1.}};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0. && d2 >= 0. && d6 <= 0.)
+  {
+    const double w = d2 / (d2 - d6);
+    return {{1. - w, 0., w}};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0. && d4 - d3 >= 0. && d5 - d6 >= 0.)
+  {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {{0., 1. - w, w}};
+  }
+  const double denominator = 1. / (va + vb + vc);
+  const double v = vb * denominator, w = vc * denominator;
+  return {{1. - v - w, v, w}};
+}
+
+/** Where a point stands with respect to a face. */
+struct FaceProjection
+{
+  double distance_square = 1e300;
+  double facing = 0.; // |cos| of the angle between offset and face normal
+  double gap = 0.;    // signed distance, negative inside
+  Vec normal = {};    // unit, outward, along which the gap is measured
+  std::array<double, 4> weight{{0., 0., 0., 0.}};
+};
+
+/**
+ * Closest point of a quadrilateral, taken as four triangles around its centre.
+ * The sign of the gap comes from the triangle's normal; the direction is the
+ * normal where the foot lies inside the triangle, and the offset itself on
+ * edges and corners.
+ */
+inline FaceProjection project_on_face(const Vec p, const std::array<Vec, 4> &x)
+{
+  FaceProjection best;
+  const Vec centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  for (int a = 0; a < 4; ++a)
+  {
+    const int b = (a + 1) & 3;
+    const auto w = closest_on_triangle(p, x[a], x[b], centre);
+    const Vec offset = p - (w[0] * x[a] + w[1] * x[b] + w[2] * centre);
+    const double d2 = norm_square(offset);
+    if (d2 > best.distance_square * (1. + 1e-12))
+      continue;
+    const Vec area = cross(x[b] - x[a], centre - x[a]);
+    const double size = norm(area);
+    if (size == 0.)
+      continue;
+    const Vec n = (1. / size) * area;
+    const double along = dot(offset, n), distance = std::sqrt(d2);
+    const double facing = distance > 0. ? std::abs(along) / distance : 1.;
+    if (d2 > best.distance_square * (1. - 1e-12) && facing <= best.facing)
+      continue;
+    best.distance_square = d2;
+    best.facing = facing;
+    best.gap = along < 0. ? -distance : distance;
+    const bool inside = facing > 1. - 1e-9 || distance < 1e-12 * std::sqrt(size);
+    best.normal = inside ? n : (1. / best.gap) * offset;
+    if (inside)
+      best.gap = along;
+    const double quarter = 0.25 * w[2];
+    best.weight = {{quarter, quarter, quarter, quarter}};
+    best.weight[a] += w[0];
+    best.weight[b] += w[1];
+  }
+  return best;
+}
+} // namespace sabot
+
+#endif

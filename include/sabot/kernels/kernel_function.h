@@ -1,0 +1,97 @@
+#ifndef sabot_kernels_kernel_function_h
+#define sabot_kernels_kernel_function_h
+
+#include "sabot/kernels/vec.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sabot
+{
+/** Cubic spline on r in [0, 1], zero beyond (Wu & Wu 2018, Eq. 18). */
+inline double cubic_spline(const double r)
+{
+  if (r >= 1.)
+    return 0.;
+  return r <= 0.5 ? 2. / 3. + r * r * (4. * r - 4.)
+                  : 4. / 3. * (1. - r) * (1. - r) * (1. - r);
+}
+
+inline Eigen::Matrix3d to_eigen(const Mat &a)
+{
+  Eigen::Matrix3d m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      m(i, j) = a(i, j);
+  return m;
+}
+
+inline Mat from_eigen(const Eigen::Matrix3d &m)
+{
+  Mat a = Mat::zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      a.set(i, j, m(i, j));
+  return a;
+}
+
+/**
+ * Inverse of a symmetric moment matrix whose small eigenvalues are damped:
+ * 1/e becomes e/threshold^2 below @p threshold, continuous there and zero
+ * where a direction is lost. @p n_damped counts the damped directions.
+ */
+inline Mat damped_inverse(const Mat &moment, const double threshold,
+                          int &n_damped)
+{
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.compute(to_eigen(moment));
+  n_damped = 0;
+  Eigen::Vector3d inverse;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double e = std::max(0., solver.eigenvalues()[i]);
+    inverse[i] = e < threshold ? e / (threshold * threshold) : 1. / e;
+    n_damped += e < threshold;
+  }
+  return from_eigen(solver.eigenvectors() * inverse.asDiagonal() *
+                    solver.eigenvectors().transpose());
+}
+
+/** Middle eigenvalue of a symmetric matrix. */
+inline double middle_eigenvalue(const Mat &moment)
+{
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.compute(to_eigen(moment), Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[1];
+}
+
+/** Limit the singular values of @p h = U S V^T to [low, high] (scaled by the
+    initial semi-axes @p axes: h = h' diag(axes)). */
+inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
+                        const double high)
+{
+  Eigen::Matrix3d m = to_eigen(h);
+  for (int j = 0; j < 3; ++j)
+    m.col(j) /= axes[j];
+  const Eigen::Matrix3d c = m.transpose() * m;
+  // Cheap exit: eigenvalues of C within Gershgorin-free Frobenius bounds.
+  const double distance = (c - Eigen::Matrix3d::Identity()).norm();
+  if (distance < std::min(1. - low * low, high * high - 1.))
+    return h;
+  Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU |
+                                               Eigen::ComputeFullV);
+  Eigen::Vector3d s = svd.singularValues();
+  for (int i = 0; i < 3; ++i)
+    s[i] = std::clamp(s[i], low, high);
+  Eigen::Matrix3d clamped =
+      svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();
+  for (int j = 0; j < 3; ++j)
+    clamped.col(j) *= axes[j];
+  return from_eigen(clamped);
+}
+} // namespace sabot
+
+#endif

@@ -1,0 +1,88 @@
+#ifndef sabot_kernels_stress_update_h
+#define sabot_kernels_stress_update_h
+
+#include "sabot/kernels/vec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sabot
+{
+/**
+ * t <- R t R^T for @p n symmetric tensors (xx, yy, zz, xy, yz, xz), with the
+ * rotation R = (1 - w/2)^-1 (1 + w/2) of the spin increment w = W dt (Hughes
+ * and Winget 1980), exact for a rigid rotation when w is taken in the mid
+ * configuration. @p spin: w_xy, w_yz, w_xz.
+ */
+inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
+                             double *const t[6])
+{
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    // Axial vector: w r = a x r.
+    const double a0 = -0.5 * spin[1][k], a1 = 0.5 * spin[2][k],
+                 a2 = -0.5 * spin[0][k];
+    const double s = 2. / (1. + a0 * a0 + a1 * a1 + a2 * a2);
+    const double r00 = 1. - s * (a1 * a1 + a2 * a2), r01 = s * (a0 * a1 - a2),
+                 r02 = s * (a0 * a2 + a1), r10 = s * (a0 * a1 + a2),
+                 r11 = 1. - s * (a0 * a0 + a2 * a2), r12 = s * (a1 * a2 - a0),
+                 r20 = s * (a0 * a2 - a1), r21 = s * (a1 * a2 + a0),
+                 r22 = 1. - s * (a0 * a0 + a1 * a1);
+    const double xx = t[0][k], yy = t[1][k], zz = t[2][k], xy = t[3][k],
+                 yz = t[4][k], xz = t[5][k];
+    const double p00 = r00 * xx + r01 * xy + r02 * xz,
+                 p01 = r00 * xy + r01 * yy + r02 * yz,
+                 p02 = r00 * xz + r01 * yz + r02 * zz,
+                 p10 = r10 * xx + r11 * xy + r12 * xz,
+                 p11 = r10 * xy + r11 * yy + r12 * yz,
+                 p12 = r10 * xz + r11 * yz + r12 * zz,
+                 p20 = r20 * xx + r21 * xy + r22 * xz,
+                 p21 = r20 * xy + r21 * yy + r22 * yz,
+                 p22 = r20 * xz + r21 * yz + r22 * zz;
+    t[0][k] = p00 * r00 + p01 * r01 + p02 * r02;
+    t[1][k] = p10 * r10 + p11 * r11 + p12 * r12;
+    t[2][k] = p20 * r20 + p21 * r21 + p22 * r22;
+    t[3][k] = p00 * r10 + p01 * r11 + p02 * r12;
+    t[4][k] = p10 * r20 + p11 * r21 + p12 * r22;
+    t[5][k] = p00 * r20 + p01 * r21 + p02 * r22;
+  }
+}
+
+/** energy += half_volume * stress : strain_increment for @p n points; called
+    with the old (rotated) and the new stress it is the trapezoidal rule. */
+inline void half_work(const std::size_t n, const double *const stress[6],
+                      const double *const strain[6], const double *half_volume,
+                      double *energy)
+{
+  for (std::size_t k = 0; k < n; ++k)
+    energy[k] +=
+        half_volume[k] *
+        (stress[0][k] * strain[0][k] + stress[1][k] * strain[1][k] +
+         stress[2][k] * strain[2][k] +
+         2. * (stress[3][k] * strain[3][k] + stress[4][k] * strain[4][k] +
+               stress[5][k] * strain[5][k]));
+}
+
+/** Artificial bulk viscosity [Pa], q = rho h (c1 c |d| + c2 h d^2) in
+    compression (d = tr D < 0), else 0 (von Neumann & Richtmyer; Landshoff). */
+inline double bulk_viscosity_pressure(const double density, const double c,
+                                      const double h, const double rate,
+                                      const double linear,
+                                      const double quadratic)
+{
+  const double d = std::max(0., -rate);
+  return density * h * d * (linear * c + quadratic * h * d);
+}
+
+/** Von Mises stress of one tensor. */
+inline double von_mises(const double s[6])
+{
+  const double m = (s[0] + s[1] + s[2]) / 3.;
+  const double a = s[0] - m, b = s[1] - m, c = s[2] - m;
+  return std::sqrt(1.5 * (a * a + b * b + c * c +
+                          2. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+}
+} // namespace sabot
+
+#endif

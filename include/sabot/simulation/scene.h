@@ -1,0 +1,103 @@
+#ifndef sabot_simulation_scene_h
+#define sabot_simulation_scene_h
+
+#include "sabot/base/parameter_file.h"
+#include "sabot/bodies/body.h"
+#include "sabot/couplings/coupling.h"
+#include "sabot/materials/material.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** A number that a scene reports in result.json. */
+struct QuantityOfInterest
+{
+  enum class Type
+  {
+    velocity,
+    penetration_depth,
+    length,
+    radius
+  };
+  std::string name;
+  Type type;
+  int body;
+  Vec direction;      // unit
+  double origin = 0.; // of the penetration depth, along the direction [m]
+};
+
+/** When fields or histories are written. */
+struct OutputSettings
+{
+  enum class Type
+  {
+    vtu,
+    history
+  };
+  std::string name;
+  Type type;
+  double interval; // [s]
+};
+
+/** Scalars of a scene. */
+struct RunSettings
+{
+  std::string title;
+  double end_time, step_factor, largest_step, energy_limit;
+};
+
+/**
+ * A scene file, read and checked: declared entries, then the objects built
+ * from them. Construction throws InputError with file and line; it changes
+ * nothing on disk.
+ */
+class Scene
+{
+public:
+  Scene(const ParameterFile &file, MPI_Comm communicator);
+
+  /** Partition all bodies together, distribute them and start the couplings.
+      Collective; after this the scene can run. */
+  void distribute();
+
+  RunSettings settings;
+  std::vector<std::shared_ptr<const Material>> materials;
+  std::vector<std::unique_ptr<Body>> bodies;
+  std::vector<std::unique_ptr<Coupling>> couplings; // ties last
+  std::vector<OutputSettings> outputs;
+  std::vector<QuantityOfInterest> quantities;
+  std::vector<std::string> warnings;
+  /** True where nothing holds a body from outside, so that linear momentum
+      must be constant. */
+  bool is_free = true;
+
+  dealii::ParameterHandler prm;
+  int body_index(const std::string &path, const std::string &body_name) const;
+  std::vector<Body *> body_pointers() const;
+
+  /** Declare the entries that the file's lists call for. */
+  static void declare(dealii::ParameterHandler &prm, const ParameterFile *file);
+
+private:
+  struct Carving;
+  void read_settings();
+  void build_materials();
+  void build_bodies();
+  void build_couplings();
+  void build_outputs();
+  void build_quantities();
+  void check_overlaps() const;
+
+  const ParameterFile &file;
+  MPI_Comm communicator;
+  std::map<std::string, std::shared_ptr<const Material>> material_by_name;
+};
+} // namespace sabot
+
+#endif

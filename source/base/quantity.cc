@@ -1,0 +1,239 @@
+#include "sabot/base/quantity.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+namespace sabot
+{
+namespace
+{
+struct Unit
+{
+  Dimension dimension;
+  const char *name;
+  double in_si;
+};
+
+// The first unit of each dimension is SI.
+const Unit units[] = {
+    {Dimension::length, "m", 1.},
+    {Dimension::length, "cm", 1e-2},
+    {Dimension::length, "mm", 1e-3},
+    {Dimension::length, "um", 1e-6},
+    {Dimension::length, "km", 1e3},
+    {Dimension::time, "s", 1.},
+    {Dimension::time, "ms", 1e-3},
+    {Dimension::time, "us", 1e-6},
+    {Dimension::time, "ns", 1e-9},
+    {Dimension::velocity, "m/s", 1.},
+    {Dimension::velocity, "km/s", 1e3},
+    {Dimension::velocity, "mm/us", 1e3},
+    {Dimension::mass, "kg", 1.},
+    {Dimension::mass, "g", 1e-3},
+    {Dimension::density, "kg/m^3", 1.},
+    {Dimension::density, "g/cm^3", 1e3},
+    {Dimension::pressure, "Pa", 1.},
+    {Dimension::pressure, "kPa", 1e3},
+    {Dimension::pressure, "MPa", 1e6},
+    {Dimension::pressure, "GPa", 1e9},
+    {Dimension::temperature, "K", 1.},
+    {Dimension::specific_heat, "J/kg/K", 1.},
+    {Dimension::specific_heat, "kJ/kg/K", 1e3},
+    {Dimension::strain_rate, "1/s", 1.},
+    {Dimension::strain_rate, "1/ms", 1e3},
+    {Dimension::energy, "J", 1.},
+    {Dimension::energy, "kJ", 1e3},
+    {Dimension::angle, "rad", 1.},
+    {Dimension::angle, "deg", 0.017453292519943295},
+};
+
+const char *dimension_name(const Dimension dimension)
+{
+  switch (dimension)
+  {
+  case Dimension::none:
+    return "a pure number";
+  case Dimension::length:
+    return "a length";
+  case Dimension::time:
+    return "a time";
+  case Dimension::velocity:
+    return "a velocity";
+  case Dimension::mass:
+    return "a mass";
+  case Dimension::density:
+    return "a density";
+  case Dimension::pressure:
+    return "a stress";
+  case Dimension::temperature:
+    return "a temperature";
+  case Dimension::specific_heat:
+    return "a specific heat";
+  case Dimension::strain_rate:
+    return "a strain rate";
+  case Dimension::energy:
+    return "an energy";
+  case Dimension::angle:
+    return "an angle";
+  }
+  return "";
+}
+
+std::string trim(const std::string &text)
+{
+  const std::size_t first = text.find_first_not_of(" \t"),
+                    last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? std::string()
+                                    : text.substr(first, last - first + 1);
+}
+
+std::vector<std::string> split(const std::string &text)
+{
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');)
+    items.push_back(trim(item));
+  if (!text.empty() && text.back() == ',')
+    items.push_back("");
+  return items;
+}
+
+/** Number and unit; false when the text is no finite number. */
+bool read_number(const std::string &text, double &number, std::string &unit)
+{
+  char *end;
+  number = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || !std::isfinite(number))
+    return false;
+  unit = trim(end);
+  return true;
+}
+
+const Unit *find_unit(const std::string &name)
+{
+  for (const Unit &unit : units)
+    if (name == unit.name)
+      return &unit;
+  return nullptr;
+}
+
+double to_si(const std::string &text)
+{
+  double number;
+  std::string unit_name;
+  if (!read_number(text, number, unit_name))
+    throw std::invalid_argument("not a quantity: \"" + text + "\"");
+  if (unit_name.empty())
+    return number;
+  const Unit *unit = find_unit(unit_name);
+  if (unit == nullptr)
+    throw std::invalid_argument("unknown unit in \"" + text + "\"");
+  return number * unit->in_si;
+}
+
+std::string short_number(const double value)
+{
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+} // namespace
+
+QuantityPattern::QuantityPattern(const Dimension dimension, const double min,
+                                 const double max)
+    : dimension(dimension), min(min), max(max)
+{
+}
+
+QuantityPattern::QuantityPattern(const Dimension dimension,
+                                 const unsigned int n_min,
+                                 const unsigned int n_max, const double min,
+                                 const double max)
+    : dimension(dimension), n_min(n_min), n_max(n_max), min(min), max(max)
+{
+}
+
+bool QuantityPattern::match(const std::string &text) const
+{
+  const std::vector<std::string> items = split(text);
+  if (items.size() < n_min || items.size() > n_max)
+    return false;
+  for (const std::string &item : items)
+  {
+    double number;
+    std::string unit_name;
+    if (!read_number(item, number, unit_name))
+      return false;
+    if (!unit_name.empty())
+    {
+      const Unit *unit = find_unit(unit_name);
+      if (unit == nullptr || unit->dimension != dimension)
+        return false;
+      number *= unit->in_si;
+    }
+    if (number < min || number > max)
+      return false;
+  }
+  return true;
+}
+
+std::string QuantityPattern::description(const OutputStyle) const
+{
+  std::string text;
+  if (n_max > 1)
+    text = (n_min == n_max ? std::to_string(n_min)
+                           : std::to_string(n_min) + " to " +
+                                 std::to_string(n_max)) +
+           " values separated by commas, each ";
+  text += dimension_name(dimension);
+  std::string si, names;
+  for (const Unit &unit : units)
+    if (unit.dimension == dimension)
+    {
+      if (si.empty())
+        si = unit.name;
+      names += (names.empty() ? "" : ", ") + std::string(unit.name);
+    }
+  const std::string suffix = si.empty() ? "" : " " + si;
+  if (min > -infinity && max < infinity)
+    text += " from " + short_number(min) + " to " + short_number(max) + suffix;
+  else if (min > -infinity)
+    text += " of at least " + short_number(min) + suffix;
+  else if (max < infinity)
+    text += " of at most " + short_number(max) + suffix;
+  if (!si.empty())
+    text += " (units " + names + "; a number alone is in " + si + ")";
+  return text;
+}
+
+std::unique_ptr<dealii::Patterns::PatternBase> QuantityPattern::clone() const
+{
+  return std::make_unique<QuantityPattern>(*this);
+}
+
+double get_quantity(const dealii::ParameterHandler &prm,
+                    const std::string &name)
+{
+  return to_si(prm.get(name));
+}
+
+std::vector<double> get_quantities(const dealii::ParameterHandler &prm,
+                                   const std::string &name)
+{
+  std::vector<double> values;
+  for (const std::string &item : split(prm.get(name)))
+    values.push_back(to_si(item));
+  return values;
+}
+
+std::vector<std::string> split_names(const std::string &text)
+{
+  std::vector<std::string> names;
+  for (const std::string &name : split(text))
+    if (!name.empty())
+      names.push_back(name);
+  return names;
+}
+} // namespace sabot

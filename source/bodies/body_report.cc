@@ -1,0 +1,102 @@
+#include "sabot/bodies/body_report.h"
+
+#include "sabot/base/exact_sum.h"
+#include "sabot/kernels/stress_update.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sabot
+{
+void add_material_fields(std::vector<OutputField> &fields,
+                         const std::vector<std::size_t> &items,
+                         const std::size_t n, const std::vector<double> &stress,
+                         const std::vector<double> &state,
+                         const std::vector<StateVariable> &variables)
+{
+  const auto stress_at = [&](const std::size_t i, const unsigned int c) {
+    return stress[c * n + items[i]];
+  };
+  add_field(fields, "stress", "Pa", items.size(), 6, stress_at);
+  add_field(fields, "von Mises", "Pa", items.size(), 1,
+            [&](const std::size_t i, const unsigned int) {
+              double s[6];
+              for (unsigned int c = 0; c < 6; ++c)
+                s[c] = stress_at(i, c);
+              return von_mises(s);
+            });
+  add_field(fields, "pressure", "Pa", items.size(), 1,
+            [&](const std::size_t i, const unsigned int) {
+              return -(stress_at(i, 0) + stress_at(i, 1) + stress_at(i, 2)) /
+                     3.;
+            });
+  for (const StateVariable &variable : variables)
+    if (!variable.is_tensor)
+    {
+      const double *const values =
+          find_state(variables, state, n, variable.name);
+      add_field(fields, variable.name, variable.unit, items.size(), 1,
+                [&](const std::size_t i, const unsigned int) {
+                  return values[items[i]];
+                });
+    }
+}
+
+Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator)
+{
+  ExactSum mass, momentum[3], kinetic;
+  double top[6];
+  std::fill(std::begin(top), std::end(top),
+            std::numeric_limits<double>::lowest());
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    const double m = nodes.lumped_mass[i];
+    const Vec v = nodes.velocity[i], x = nodes.position[i];
+    mass.add(m);
+    kinetic.add(0.5 * m * norm_square(v));
+    for (int d = 0; d < 3; ++d)
+    {
+      momentum[d].add(m * v[d]);
+      top[d] = std::max(top[d], x[d]);
+      top[3 + d] = std::max(top[3 + d], -x[d]);
+    }
+  }
+  ExactSum::reduce({&mass, &momentum[0], &momentum[1], &momentum[2], &kinetic},
+                   communicator);
+  MPI_Allreduce(MPI_IN_PLACE, top, 6, MPI_DOUBLE, MPI_MAX, communicator);
+  Measures measures = {{"mass", "kg", mass.value()}};
+  const char axis[] = {'x', 'y', 'z'};
+  for (int d = 0; d < 3; ++d)
+    measures.push_back({std::string("velocity ") + axis[d], "m/s",
+                        momentum[d].value() / mass.value()});
+  measures.push_back({"kinetic energy", "J", kinetic.value()});
+  for (int d = 0; d < 3; ++d)
+  {
+    measures.push_back({std::string("minimum ") + axis[d], "m", -top[3 + d]});
+    measures.push_back({std::string("maximum ") + axis[d], "m", top[d]});
+  }
+  return measures;
+}
+
+const double *find_state(const std::vector<StateVariable> &variables,
+                         const std::vector<double> &state, const std::size_t n,
+                         const std::string &name)
+{
+  std::size_t first = 0;
+  for (const StateVariable &variable : variables)
+  {
+    if (variable.name == name)
+      return state.data() + first * n;
+    first += variable.is_tensor ? n_symmetric : 1;
+  }
+  return nullptr;
+}
+
+std::size_t count_states(const std::vector<StateVariable> &variables)
+{
+  std::size_t count = 0;
+  for (const StateVariable &variable : variables)
+    count += variable.is_tensor ? n_symmetric : 1;
+  return count;
+}
+} // namespace sabot

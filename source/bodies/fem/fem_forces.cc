@@ -1,0 +1,253 @@
+#include "sabot/bodies/fem/fem_body.h"
+#include "sabot/kernels/stress_update.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+/** The four hourglass base vectors summed with nodal values, by sums and
+    differences of pairs (corner order: VTK). */
+inline void hourglass_sums(const Vec x[8], Vec mode[4])
+{
+  // h_1 = (++--, --++), h_2 = (+--+, -++-), h_3 = (+-+-, +-+-),
+  // h_4 = (-+-+, +-+-)
+  const Vec a = x[0] + x[1] - x[2] - x[3], b = x[4] + x[5] - x[6] - x[7];
+  const Vec c = x[0] - x[1] - x[2] + x[3], d = x[4] - x[5] - x[6] + x[7];
+  const Vec e = x[0] - x[1] + x[2] - x[3], f = x[4] - x[5] + x[6] - x[7];
+  mode[0] = a - b;
+  mode[1] = c - d;
+  mode[2] = e + f;
+  mode[3] = f - e;
+}
+
+/** Sum over modes of h_a times modal values, for the eight corners. */
+inline void hourglass_spread(const Vec mode[4], Vec f[8])
+{
+  const Vec p = mode[2] - mode[3], m = mode[2] + mode[3];
+  f[0] = mode[0] + mode[1] + p;
+  f[1] = mode[0] - mode[1] - p;
+  f[2] = p - mode[0] - mode[1];
+  f[3] = mode[1] - mode[0] - p;
+  f[4] = m - mode[0] - mode[1];
+  f[5] = mode[1] - mode[0] - m;
+  f[6] = mode[0] + mode[1] + m;
+  f[7] = mode[0] - mode[1] - m;
+}
+} // namespace
+
+void FemBody::update_ghosts()
+{
+  node_exchange.update(nodal_state.position.data());
+  node_exchange.update(nodal_state.velocity.data());
+}
+
+void FemBody::compute_forces(const double /*time*/, const double dt)
+{
+  std::fill(nodal_state.force.begin(), nodal_state.force.end(), Vec{});
+  current_stable_step = std::numeric_limits<double>::max();
+  stable_step_item = -1;
+  const std::size_t n = connectivity.size();
+  for (std::size_t begin = 0; begin < n; begin += batch_size)
+  {
+    const std::size_t end = std::min(begin + batch_size, n);
+    kinematics(begin, end, dt);
+    if (dt > 0.)
+      stresses(begin, end, dt);
+    scatter_forces(begin, end, dt);
+  }
+}
+
+void FemBody::kinematics(const std::size_t begin, const std::size_t end,
+                         const double dt)
+{
+  const double c = material->sound_speed(), density = material->density();
+  for (std::size_t e = begin; e < end; ++e)
+  {
+    const auto &nodes = connectivity[e];
+    const CellGeometry &g = geometry[e];
+    Mat F = Mat::zero();
+    for (int a = 0; a < 8; ++a)
+      add_outer(F, nodal_state.position[nodes[a]], g.mean_gradient[a]);
+    const Mat F_old = gradient[e];
+    gradient[e] = F;
+    const Mat l = (F - F_old) * inverse(0.5 * (F + F_old));
+    double J;
+    const Mat F_inverse = inverse(F, J);
+
+    const std::size_t k = e - begin;
+    batch.strain[0][k] = l(0, 0);
+    batch.strain[1][k] = l(1, 1);
+    batch.strain[2][k] = l(2, 2);
+    batch.strain[3][k] = 0.5 * (l(0, 1) + l(1, 0));
+    batch.strain[4][k] = 0.5 * (l(1, 2) + l(2, 1));
+    batch.strain[5][k] = 0.5 * (l(0, 2) + l(2, 0));
+    batch.spin[0][k] = 0.5 * (l(0, 1) - l(1, 0));
+    batch.spin[1][k] = 0.5 * (l(1, 2) - l(2, 1));
+    batch.spin[2][k] = 0.5 * (l(0, 2) - l(2, 0));
+    batch.jacobian[k] = J;
+    batch.half_volume[k] = 0.25 * volume[e] * (J + determinant(F_old));
+    batch.inverse_transposed[k] = transpose(F_inverse);
+    const double rate = dt > 0. ? trace(l) / dt : 0.;
+    const double h = std::cbrt(volume[e] * J);
+    batch.viscous_pressure[k] =
+        bulk_viscosity_pressure(density / J, c, h, rate,
+                                options.bulk_viscosity_linear,
+                                options.bulk_viscosity_quadratic);
+    if (!(J > 0.))
+    {
+      const Vec x = nodal_state.position[nodes[0]];
+      throw PhysicsError("body " + name + ", cell " +
+                         std::to_string(cell_id[e]) + " near (" +
+                         std::to_string(x[0]) + ", " + std::to_string(x[1]) +
+                         ", " + std::to_string(x[2]) +
+                         ") m is turned inside out (det F = " +
+                         std::to_string(J) + ")");
+    }
+    // Bulk viscosity shortens the step: damping ratio xi of the cell's own
+    // compression.
+    const double xi = options.bulk_viscosity_linear +
+                      options.bulk_viscosity_quadratic * h *
+                          std::max(0., -rate) / c;
+    const double step = cell_stable_step(e, F_inverse, J) *
+                        (std::sqrt(1. + xi * xi) - xi);
+    if (step < current_stable_step)
+    {
+      current_stable_step = step;
+      stable_step_item = cell_id[e];
+    }
+  }
+}
+
+double FemBody::cell_stable_step(const std::size_t e, const Mat &F_inverse,
+                                 const double J) const
+{
+  // omega^2 <= 8 V/m (lambda tr G + 2 mu lambda_max G), G = sum b_a b_a^T with
+  // the present gradients b_a = F^-T B_a (doc/theory-fem.md).
+  Mat G0 = Mat::zero();
+  for (const Vec B : geometry[e].mean_gradient)
+    add_outer(G0, B, B);
+  const Mat G = transpose(F_inverse) * G0 * F_inverse;
+  const double mu = material->shear_modulus(),
+               lambda = material->bulk_modulus() - 2. / 3. * mu;
+  const double largest = std::min(
+      trace(G), std::sqrt(norm_square(G.row[0]) + norm_square(G.row[1]) +
+                          norm_square(G.row[2])));
+  const double omega_square =
+      8. * J / material->density() *
+      (std::max(0., lambda) * trace(G) + 2. * mu * largest);
+  return 2. / std::sqrt(omega_square);
+}
+
+void FemBody::stresses(const std::size_t begin, const std::size_t end,
+                       const double dt)
+{
+  const std::size_t n = connectivity.size(), m = end - begin;
+  double *stress[6];
+  const double *strain[6], *spin[3];
+  for (int c = 0; c < 6; ++c)
+  {
+    stress[c] = &stress_data[c * n + begin];
+    strain[c] = batch.strain[c];
+  }
+  for (int c = 0; c < 3; ++c)
+    spin[c] = batch.spin[c];
+  for (std::size_t s = 0; s < n_states; ++s)
+    batch_states[s] = &state_data[s * n + begin];
+
+  rotate_symmetric(m, spin, stress);
+  std::size_t first = 0;
+  for (const StateVariable &variable : state_variables)
+  {
+    if (variable.is_tensor)
+      rotate_symmetric(m, spin, &batch_states[first]);
+    first += variable.is_tensor ? 6 : 1;
+  }
+  const double *now[6] = {stress[0], stress[1], stress[2],
+                          stress[3], stress[4], stress[5]};
+  half_work(m, now, strain, batch.half_volume, &internal_energy[begin]);
+  MaterialBatch points;
+  points.n = m;
+  points.dt = dt;
+  std::copy(strain, strain + 6, points.strain_increment);
+  points.jacobian = batch.jacobian;
+  std::copy(stress, stress + 6, points.stress);
+  points.states = batch_states.data();
+  points.return_factor = batch.return_factor;
+  points.plastic_work = batch.plastic_work;
+  material->update(points);
+  half_work(m, now, strain, batch.half_volume, &internal_energy[begin]);
+  for (std::size_t k = 0; k < m; ++k)
+  {
+    internal_energy[begin + k] -=
+        2. * batch.viscous_pressure[k] * batch.half_volume[k] *
+        (batch.strain[0][k] + batch.strain[1][k] + batch.strain[2][k]);
+    plastic_work[begin + k] += 2. * batch.plastic_work[k] * batch.half_volume[k];
+  }
+}
+
+void FemBody::scatter_forces(const std::size_t begin, const std::size_t end,
+                             const double dt)
+{
+  const std::size_t n = connectivity.size();
+  const bool viscous = options.hourglass == FemOptions::Hourglass::viscous;
+  const double c = material->sound_speed(), density = material->density(),
+               modulus = density * c * c;
+  for (std::size_t e = begin; e < end; ++e)
+  {
+    const std::size_t k = e - begin;
+    const CellGeometry &g = geometry[e];
+    const auto &nodes = connectivity[e];
+    const double q = batch.viscous_pressure[k];
+    const double *const s = &stress_data[e];
+    const Mat sigma = {{vec(s[0] - q, s[3 * n], s[5 * n]),
+                        vec(s[3 * n], s[n] - q, s[4 * n]),
+                        vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
+    // V_0 P, then the part of the hourglass forces that acts through B.
+    Mat P = (volume[e] * batch.jacobian[k]) *
+            (sigma * batch.inverse_transposed[k]);
+
+    Vec x[8], mode[4], corner[8];
+    for (int a = 0; a < 8; ++a)
+      x[a] = viscous ? nodal_state.velocity[nodes[a]]
+                     : nodal_state.position[nodes[a]];
+    hourglass_sums(x, mode);
+    Mat L = gradient[e];
+    if (viscous)
+    {
+      L = Mat::zero();
+      for (int a = 0; a < 8; ++a)
+        add_outer(L, x[a], g.mean_gradient[a]);
+    }
+    // Flanagan & Belytschko 1981: viscosity ~ rho c V^(2/3), stiffness
+    // ~ rho c^2 V^(1/3), both for base vectors of unit entries.
+    const double size = std::cbrt(volume[e] * batch.jacobian[k]);
+    const double coefficient =
+        options.hourglass_coefficient *
+        (viscous ? 0.25 * density * c * size * size
+                 : 0.125 * modulus * size);
+    double energy = 0.;
+    for (int m = 0; m < 4; ++m)
+    {
+      mode[m] -= L * g.mode_position[m];
+      energy += coefficient * norm_square(mode[m]);
+      mode[m] = coefficient * mode[m];
+      add_outer(P, -mode[m], g.mode_position[m]);
+    }
+    if (viscous)
+      hourglass_energy[e] += dt * energy;
+    else
+      hourglass_energy[e] = 0.5 * energy;
+    hourglass_spread(mode, corner);
+    for (int a = 0; a < 8; ++a)
+      nodal_state.force[nodes[a]] -= P * g.mean_gradient[a] + corner[a];
+  }
+}
+
+StableStep FemBody::stable_step() const
+{
+  return {current_stable_step, stable_step_item};
+}
+} // namespace sabot

@@ -1,0 +1,241 @@
+#include "sabot/couplings/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+Contact::Contact(const std::string &name, const std::vector<Body *> &bodies,
+                 const std::vector<ContactPair> &pairs,
+                 const ContactOptions &options, MPI_Comm communicator)
+    : Coupling(name), bodies(bodies), pairs(pairs), options(options),
+      communicator(communicator)
+{
+}
+
+void Contact::initialize()
+{
+  skin = 1e300;
+  for (const ContactPair &pair : pairs)
+    for (const int b : {pair.faces_of, pair.nodes_of})
+      skin = std::min(skin, 0.5 * bodies[b]->contact_surface().spacing);
+  search();
+  halo.update();
+  double worst = 0.;
+  for (const Group &group : groups)
+  {
+    FaceProjection projection;
+    if (closest_face(group, projection) >= 0 &&
+        -projection.gap / group.spacing > worst)
+    {
+      worst = -projection.gap / group.spacing;
+      initial_node = halo.key(group.slot);
+    }
+  }
+  initial_over_spacing = worst;
+  MPI_Allreduce(MPI_IN_PLACE, &initial_over_spacing, 1, MPI_DOUBLE, MPI_MAX,
+                communicator);
+}
+
+void Contact::update_search(const unsigned int, const double dt)
+{
+  // Both sides move: candidates hold until together they covered the skin.
+  travelled += 2. * largest_speed(bodies, communicator) * dt;
+  if (travelled > skin)
+    search();
+}
+
+void Contact::search()
+{
+  travelled = 0.;
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  double spacing = 0.;
+  std::vector<double> spacing_of(bodies.size(), 0.),
+      modulus_of(bodies.size(), 0.);
+  for (const ContactPair &pair : pairs)
+    for (const int b : {pair.faces_of, pair.nodes_of})
+      if (spacing_of[b] == 0.)
+      {
+        const ContactSurface surface = bodies[b]->contact_surface();
+        spacing_of[b] = surface.spacing;
+        modulus_of[b] = surface.bulk_modulus;
+        spacing = std::max(spacing, surface.spacing);
+      }
+  const SearchResult found =
+      search_contacts(bodies, pairs, spacing + skin, communicator);
+
+  // Keep the groups in which any node is owned here: whoever owns a node
+  // computes all that acts on it, from the same numbers in the same order.
+  const auto owned = [&](const std::int32_t body, const GlobalIndex node) {
+    return bodies[body]->node_owner[node] == rank;
+  };
+  std::vector<NodeKey> needed;
+  std::vector<std::pair<std::size_t, std::size_t>> kept;
+  const auto &c = found.candidates;
+  for (std::size_t first = 0, last; first < c.size(); first = last)
+  {
+    bool relevant = owned(c[first].node.body, c[first].node.node);
+    for (last = first; last < c.size() && c[last].node == c[first].node;
+         ++last)
+    {
+      const FaceNodes &face = found.faces[c[last].face];
+      for (const GlobalIndex a : face.node)
+        relevant = relevant || owned(face.body, a);
+    }
+    if (!relevant)
+      continue;
+    kept.emplace_back(first, last);
+    needed.push_back(c[first].node);
+    for (std::size_t k = first; k < last; ++k)
+      for (const GlobalIndex a : found.faces[c[k].face].node)
+        needed.push_back({found.faces[c[k].face].body, 0, a});
+  }
+  halo.build(bodies, needed, communicator);
+
+  groups.clear();
+  face_slots.clear();
+  for (const auto &[first, last] : kept)
+  {
+    Group group;
+    group.slot = halo.slot(c[first].node);
+    group.first_face = face_slots.size();
+    const std::int32_t body = c[first].node.body;
+    group.spacing = spacing_of[body];
+    double modulus = modulus_of[body];
+    for (std::size_t k = first; k < last; ++k)
+    {
+      const FaceNodes &face = found.faces[c[k].face];
+      modulus = std::min(modulus, modulus_of[face.body]);
+      std::array<std::size_t, 4> slots;
+      for (int a = 0; a < 4; ++a)
+        slots[a] = halo.slot({face.body, 0, face.node[a]});
+      face_slots.push_back(slots);
+    }
+    group.last_face = face_slots.size();
+    group.stiffness = options.stiffness_scale * modulus * group.spacing;
+    groups.push_back(group);
+  }
+  normal_force.assign(halo.size(), Vec{});
+  friction_force.assign(halo.size(), Vec{});
+  total_force.assign(halo.size(), Vec{});
+}
+
+std::ptrdiff_t Contact::closest_face(const Group &group,
+                                     FaceProjection &best) const
+{
+  const Vec p = halo.position[group.slot];
+  std::ptrdiff_t closest = -1;
+  for (std::size_t f = group.first_face; f < group.last_face; ++f)
+  {
+    std::array<Vec, 4> x;
+    for (int a = 0; a < 4; ++a)
+      x[a] = halo.position[face_slots[f][a]];
+    const FaceProjection projection = project_on_face(p, x);
+    // Faces that share the closest edge: the one that faces the point more
+    // squarely tells the right side.
+    const bool tie = std::abs(projection.distance_square -
+                              best.distance_square) <=
+                     1e-10 * best.distance_square;
+    if (closest < 0 || (tie ? projection.facing > best.facing
+                            : projection.distance_square <
+                                  best.distance_square))
+    {
+      best = projection;
+      closest = f;
+    }
+  }
+  return closest;
+}
+
+void Contact::add_forces(const double dt)
+{
+  halo.update();
+  std::fill(normal_force.begin(), normal_force.end(), Vec{});
+  std::fill(friction_force.begin(), friction_force.end(), Vec{});
+  if (dt <= 0.)
+    return;
+  for (const Group &group : groups)
+  {
+    FaceProjection projection;
+    const std::ptrdiff_t f = closest_face(group, projection);
+    if (f < 0 || projection.gap >= 0.)
+      continue;
+    const auto &slots = face_slots[f];
+    const auto &w = projection.weight;
+    const Vec n = projection.normal;
+    double face_compliance = 0.;
+    Vec v = halo.velocity[group.slot];
+    for (int a = 0; a < 4; ++a)
+    {
+      face_compliance += w[a] * w[a] / halo.inertia[slots[a]];
+      v -= w[a] * halo.velocity[slots[a]];
+    }
+    const double reduced_mass =
+        1. / (1. / halo.inertia[group.slot] + face_compliance);
+    const double k = std::min(
+        group.stiffness, options.stability_fraction * reduced_mass / (dt * dt));
+    const double normal_rate = dot(v, n);
+    const double damping = 2. * options.damping_fraction *
+                           std::sqrt(k * reduced_mass) *
+                           std::max(0., -normal_rate);
+    const double pressing = -k * projection.gap + damping;
+    const Vec sliding = v - normal_rate * n;
+    const double speed = norm(sliding);
+    // Friction cannot do more than stop the sliding within the step.
+    const double drag =
+        speed > 0. ? std::min(options.friction * pressing,
+                              0.5 * reduced_mass * speed / dt) /
+                         speed
+                   : 0.;
+    const Vec fn = pressing * n, ft = -drag * sliding;
+    normal_force[group.slot] += fn;
+    friction_force[group.slot] += ft;
+    for (int a = 0; a < 4; ++a)
+    {
+      normal_force[slots[a]] -= w[a] * fn;
+      friction_force[slots[a]] -= w[a] * ft;
+    }
+    penetration_over_spacing =
+        std::max(penetration_over_spacing, -projection.gap / group.spacing);
+  }
+  for (std::size_t s = 0; s < halo.size(); ++s)
+    total_force[s] = normal_force[s] + friction_force[s];
+  halo.add_to_bodies(total_force);
+}
+
+void Contact::accumulate_work(const double half_dt)
+{
+  for (std::size_t s = 0; s < halo.n_owned(); ++s)
+    if (norm_square(normal_force[s]) > 0.)
+    {
+      const Vec v = half_dt * halo.body_velocity(s);
+      contact_work.add(dot(normal_force[s], v));
+      friction_work.add(dot(friction_force[s], v));
+    }
+}
+
+void Contact::add_energies(EnergyLedger &ledger) const
+{
+  // What the forces took from the bodies.
+  ledger.contact.subtract(contact_work);
+  ledger.friction.subtract(friction_work);
+}
+
+Measures Contact::measure() const
+{
+  double penetration = penetration_over_spacing;
+  MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
+                communicator);
+  return {{"penetration max over spacing", "1", penetration},
+          {"initial penetration over spacing", "1", initial_over_spacing}};
+}
+
+void Contact::visit_state(StateVisitor &visitor)
+{
+  visitor.visit("contact work", &contact_work, 1, sizeof(contact_work));
+  visitor.visit("friction work", &friction_work, 1, sizeof(friction_work));
+  visitor.visit("travelled", &travelled, 1, sizeof(travelled));
+  visitor.visit("penetration", &penetration_over_spacing, 1, sizeof(double));
+}
+} // namespace sabot

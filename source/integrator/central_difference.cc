@@ -1,0 +1,164 @@
+#include "sabot/integrator/central_difference.h"
+
+#include "sabot/base/error.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+CentralDifference::CentralDifference(
+    std::vector<std::unique_ptr<Body>> &bodies,
+    std::vector<std::unique_ptr<Coupling>> &couplings, Timers &timers,
+    MPI_Comm communicator)
+    : bodies(bodies), couplings(couplings), timers(timers),
+      communicator(communicator)
+{
+}
+
+void CentralDifference::initialize()
+{
+  impose_velocities();
+  compute_forces(0.);
+}
+
+void CentralDifference::kick(const double dt)
+{
+  const auto timer = timers.scope("integrate");
+  for (auto &body : bodies)
+  {
+    NodalState &nodes = body->nodes();
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
+      if (nodes.inertia[i] > 0.)
+        nodes.velocity[i] += (dt / nodes.inertia[i]) * nodes.force[i];
+  }
+}
+
+void CentralDifference::impose_velocities()
+{
+  for (auto &body : bodies)
+    body->impose_velocities(time);
+  const auto timer = timers.scope("tie");
+  for (auto &coupling : couplings)
+    coupling->impose_kinematics();
+}
+
+void CentralDifference::advance(const double dt)
+{
+  kick(0.5 * dt); // v(n+1/2)
+  impose_velocities();
+  {
+    const auto timer = timers.scope("coupling work");
+    for (auto &coupling : couplings)
+      coupling->accumulate_work(0.5 * dt);
+  }
+  {
+    const auto timer = timers.scope("integrate");
+    for (auto &body : bodies) // x(n+1)
+    {
+      NodalState &nodes = body->nodes();
+      for (std::size_t i = 0; i < nodes.n_owned; ++i)
+        nodes.position[i] += dt * nodes.velocity[i];
+    }
+  }
+  time += dt;
+  compute_forces(dt);
+  {
+    const auto timer = timers.scope("coupling work");
+    for (auto &coupling : couplings)
+      coupling->accumulate_work(0.5 * dt);
+  }
+  kick(0.5 * dt); // v(n+1)
+  impose_velocities();
+}
+
+void CentralDifference::compute_forces(const double dt)
+{
+  std::string problem;
+  for (auto &body : bodies)
+  {
+    {
+      const auto timer = timers.scope("ghost exchange");
+      body->update_ghosts();
+    }
+    const auto timer = timers.scope(body->step_timer_name());
+    try
+    {
+      body->compute_forces(time, dt);
+    }
+    catch (const PhysicsError &e)
+    {
+      problem = e.what();
+    }
+  }
+  agree_on_problems(problem);
+  for (auto &coupling : couplings)
+  {
+    {
+      const auto timer = timers.scope(coupling->kind() + " search");
+      coupling->update_search(0, dt);
+    }
+    const auto timer = timers.scope(coupling->kind());
+    coupling->add_forces(dt);
+  }
+}
+
+void CentralDifference::update_topology(const unsigned int step)
+{
+  const auto timer = timers.scope("kernel update");
+  for (auto &body : bodies)
+    body->update_topology(step, time);
+}
+
+void CentralDifference::agree_on_problems(const std::string &problem) const
+{
+  int rank, n_ranks;
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &n_ranks);
+  int first = problem.empty() ? n_ranks : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, communicator);
+  if (first == n_ranks)
+    return;
+  int length = problem.size();
+  MPI_Bcast(&length, 1, MPI_INT, first, communicator);
+  std::string message = problem;
+  message.resize(length);
+  MPI_Bcast(&message[0], length, MPI_CHAR, first, communicator);
+  throw PhysicsError(message);
+}
+
+StepProposal CentralDifference::propose(const bool interrupted) const
+{
+  struct Proposal
+  {
+    double dt;
+    GlobalIndex item;
+    int source;
+  } best{std::numeric_limits<double>::max(), -1, 0};
+  int source = 0;
+  const auto consider = [&](const StableStep &step) {
+    if (step.dt < best.dt)
+      best = {step.dt, step.item, source};
+    ++source;
+  };
+  for (const auto &body : bodies)
+    consider(body->stable_step());
+  for (const auto &coupling : couplings)
+    consider(coupling->stable_step());
+
+  double values[2] = {best.dt, interrupted ? -1. : 0.};
+  MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_DOUBLE, MPI_MIN, communicator);
+  // Of equal proposals the lowest body and item is named, whatever the ranks.
+  constexpr GlobalIndex factor = GlobalIndex(1) << 48;
+  GlobalIndex who = best.dt == values[0] ? best.source * factor + best.item
+                                         : std::numeric_limits<GlobalIndex>::max();
+  MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT64_T, MPI_MIN, communicator);
+  const std::size_t index = who / factor;
+  StepProposal proposal{values[0], "", values[1] < 0.};
+  if (index < bodies.size())
+    proposal.limiter =
+        bodies[index]->name + " #" + std::to_string(who % factor);
+  else if (index - bodies.size() < couplings.size())
+    proposal.limiter = couplings[index - bodies.size()]->name;
+  return proposal;
+}
+} // namespace sabot

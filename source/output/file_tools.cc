@@ -1,0 +1,47 @@
+#include "sabot/output/file_tools.h"
+
+#include "sabot/base/error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace sabot
+{
+void make_folder(const std::string &folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error && !std::filesystem::is_directory(folder))
+    throw IOError("cannot create folder \"" + folder +
+                  "\": " + error.message());
+}
+
+void write_atomically(const std::string &file,
+                      const std::function<void(const std::string &)> &write)
+{
+  const std::string temporary = file + ".part";
+  write(temporary);
+  if (std::rename(temporary.c_str(), file.c_str()) != 0)
+    throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
+}
+
+void write_text(const std::string &file, const std::string &text)
+{
+  write_atomically(file, [&](const std::string &temporary) {
+    errno = 0;
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream)
+    {
+      const std::string reason =
+          errno != 0 ? std::strerror(errno) : "the write failed";
+      std::remove(temporary.c_str());
+      throw IOError("cannot write \"" + file + "\": " + reason);
+    }
+  });
+}
+} // namespace sabot

@@ -1,0 +1,65 @@
+#include "sabot/output/log.h"
+
+#include "sabot/base/error.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+
+namespace sabot
+{
+Log::Log(const bool quiet, MPI_Comm communicator)
+    : quiet(quiet), terminal(isatty(STDOUT_FILENO) == 1)
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  speaks = rank == 0;
+}
+
+void Log::open(const std::string &name, const bool append)
+{
+  if (!speaks)
+    return;
+  errno = 0;
+  file.open(name, append ? std::ios::app : std::ios::trunc);
+  if (!file)
+    throw IOError("cannot write \"" + name + "\": " + std::strerror(errno));
+}
+
+void Log::line(const std::string &text)
+{
+  if (!speaks)
+    return;
+  if (!quiet)
+  {
+    if (open_line)
+      std::cout << "\n";
+    open_line = false;
+    std::cout << text << std::endl;
+  }
+  if (file.is_open())
+    file << text << std::endl;
+}
+
+void Log::warning(const std::string &text) { line("warning: " + text); }
+
+void Log::progress(const std::string &text, const bool last)
+{
+  if (!speaks || quiet)
+    return;
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::milliseconds pause(terminal ? 200 : 2000);
+  if (!last && now - last_progress < pause)
+    return;
+  last_progress = now;
+  if (terminal)
+  {
+    std::cout << "\r\033[K" << text << std::flush;
+    open_line = true;
+  }
+  else
+    std::cout << text << std::endl;
+}
+} // namespace sabot

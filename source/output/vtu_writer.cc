@@ -1,0 +1,223 @@
+#include "sabot/output/vtu_writer.h"
+
+#include "sabot/base/error.h"
+#include "sabot/output/file_tools.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iomanip>
+#include <sstream>
+
+namespace sabot
+{
+namespace
+{
+const char *const tensor_names[6] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+
+void add_fields(const std::vector<OutputField> &fields,
+                vtkDataSetAttributes *attributes)
+{
+  for (const OutputField &field : fields)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(field.name.c_str());
+    array->SetNumberOfComponents(field.n_components);
+    if (field.n_components == 6)
+      for (int c = 0; c < 6; ++c)
+        array->SetComponentName(c, tensor_names[c]);
+    array->SetNumberOfTuples(field.values.size() / field.n_components);
+    std::copy(field.values.begin(), field.values.end(), array->GetPointer(0));
+    attributes->AddArray(array);
+  }
+}
+
+std::string body_file(const std::string &body, const unsigned int frame)
+{
+  std::string name = body;
+  for (char &c : name)
+    if (c == '/' || c == ' ' || c == '"')
+      c = '-';
+  std::ostringstream stream;
+  stream << name << "_" << std::setw(6) << std::setfill('0') << frame;
+  return stream.str();
+}
+
+std::string escaped(const std::string &text)
+{
+  std::string out;
+  for (const char c : text)
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
+  return out;
+}
+} // namespace
+
+VtuWriter::VtuWriter(const std::string &folder, MPI_Comm communicator)
+    : folder(folder), communicator(communicator)
+{
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &n_ranks);
+  std::string problem;
+  try
+  {
+    if (rank == 0)
+      make_folder(folder + "/fields");
+  }
+  catch (const IOError &e)
+  {
+    problem = e.what();
+  }
+  agree(problem);
+}
+
+void VtuWriter::agree(const std::string &problem) const
+{
+  int bad = problem.empty() ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, communicator);
+  if (bad)
+    throw IOError(problem.empty() ? "another rank could not write its part"
+                                  : problem);
+}
+
+std::string VtuWriter::piece_name(const std::string &body,
+                                  const unsigned int frame,
+                                  const int piece) const
+{
+  return body_file(body, frame) +
+         (n_ranks > 1 ? "_" + std::to_string(piece) : std::string()) + ".vtu";
+}
+
+void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
+                           const unsigned int frame)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(mesh.points.size() / 3);
+  for (std::size_t i = 0; i < mesh.points.size() / 3; ++i)
+    points->SetPoint(i, &mesh.points[3 * i]);
+  vtkNew<vtkCellArray> cells;
+  const unsigned int n = mesh.nodes_per_cell;
+  for (std::size_t c = 0; c < mesh.connectivity.size() / n; ++c)
+  {
+    vtkIdType nodes[8];
+    for (unsigned int a = 0; a < n; ++a)
+      nodes[a] = mesh.connectivity[n * c + a];
+    cells->InsertNextCell(n, nodes);
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->SetCells(n == 1 ? VTK_VERTEX : VTK_HEXAHEDRON, cells);
+  add_fields(mesh.point_fields, grid->GetPointData());
+  add_fields(mesh.cell_fields, grid->GetCellData());
+
+  std::string problem;
+  const std::string file =
+      folder + "/fields/" + piece_name(body, frame, rank);
+  try
+  {
+    write_atomically(file, [&](const std::string &temporary) {
+      errno = 0;
+      vtkNew<vtkXMLUnstructuredGridWriter> writer;
+      writer->SetFileName(temporary.c_str());
+      writer->SetInputData(grid);
+      writer->SetCompressorTypeToZLib();
+      writer->SetCompressionLevel(1);
+      writer->SetDataModeToAppended();
+      writer->EncodeAppendedDataOff();
+      // The name's ending is not .vtu yet; VTK would print a warning.
+      if (writer->Write() != 1 || writer->GetErrorCode() != 0)
+      {
+        const std::string reason =
+            errno != 0 ? std::strerror(errno) : "the write failed";
+        std::remove(temporary.c_str());
+        throw IOError("cannot write \"" + file + "\": " + reason);
+      }
+    });
+    if (n_ranks > 1 && rank == 0)
+      write_collection(body, mesh, frame);
+  }
+  catch (const IOError &e)
+  {
+    problem = e.what();
+  }
+  agree(problem);
+}
+
+void VtuWriter::write_collection(const std::string &body,
+                                 const OutputMesh &mesh,
+                                 const unsigned int frame) const
+{
+  std::ostringstream xml;
+  xml << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" "
+         "version=\"0.1\" byte_order=\"LittleEndian\">\n"
+         "<PUnstructuredGrid GhostLevel=\"0\">\n";
+  const auto list = [&](const char *section,
+                        const std::vector<OutputField> &fields) {
+    xml << "<" << section << ">\n";
+    for (const OutputField &field : fields)
+    {
+      xml << "<PDataArray type=\"Float64\" Name=\"" << escaped(field.name)
+          << "\" NumberOfComponents=\"" << field.n_components << "\"";
+      if (field.n_components == 6)
+        for (int c = 0; c < 6; ++c)
+          xml << " ComponentName" << c << "=\"" << tensor_names[c] << "\"";
+      xml << "/>\n";
+    }
+    xml << "</" << section << ">\n";
+  };
+  list("PPointData", mesh.point_fields);
+  list("PCellData", mesh.cell_fields);
+  xml << "<PPoints><PDataArray type=\"Float64\" Name=\"Points\" "
+         "NumberOfComponents=\"3\"/></PPoints>\n";
+  for (int piece = 0; piece < n_ranks; ++piece)
+    xml << "<Piece Source=\"" << escaped(piece_name(body, frame, piece))
+        << "\"/>\n";
+  xml << "</PUnstructuredGrid>\n</VTKFile>\n";
+  write_text(folder + "/fields/" + body_file(body, frame) + ".pvtu", xml.str());
+}
+
+void VtuWriter::add_time(const double time, const unsigned int frame,
+                         const std::vector<std::string> &bodies)
+{
+  frames.emplace_back(time, frame);
+  std::string problem;
+  if (rank == 0)
+  {
+    std::ostringstream xml;
+    xml << std::setprecision(17)
+        << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+           "version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+    for (const auto &[t, f] : frames)
+      for (std::size_t b = 0; b < bodies.size(); ++b)
+        xml << "<DataSet timestep=\"" << t << "\" group=\"\" part=\"" << b
+            << "\" name=\"" << escaped(bodies[b]) << "\" file=\"fields/"
+            << escaped(body_file(bodies[b], f))
+            << (n_ranks > 1 ? ".pvtu" : ".vtu") << "\"/>\n";
+    xml << "</Collection>\n</VTKFile>\n";
+    try
+    {
+      write_text(folder + "/sabot.pvd", xml.str());
+    }
+    catch (const IOError &e)
+    {
+      problem = e.what();
+    }
+  }
+  agree(problem);
+}
+} // namespace sabot

@@ -1,0 +1,431 @@
+#include "sabot/simulation/run.h"
+
+#include "sabot/base/parameter_file.h"
+#include "sabot/couplings/contact.h"
+#include "sabot/output/file_tools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <sstream>
+
+namespace sabot
+{
+namespace
+{
+volatile std::sig_atomic_t asked_to_stop = 0;
+void note_signal(int) { asked_to_stop = 1; }
+
+std::string format(const char *pattern, const double value)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), pattern, value);
+  return text;
+}
+
+/** How many energy checks and history rows a run makes at least. */
+constexpr double checks_per_run = 200.;
+} // namespace
+
+std::string version() { return SABOT_VERSION; }
+
+Run::Run(Scene &scene, const std::string &folder, const bool quiet,
+         MPI_Comm communicator)
+    : scene(scene), folder(folder), communicator(communicator),
+      log(quiet, communicator),
+      integrator(scene.bodies, scene.couplings, timers, communicator)
+{
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &n_ranks);
+}
+
+ExitCode Run::execute()
+{
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+  start_time = std::chrono::steady_clock::now();
+  std::string status = "completed", reason;
+  ExitCode code = ExitCode::done;
+  try
+  {
+    start();
+    loop();
+    if (interrupted)
+    {
+      status = "interrupted";
+      reason = "a signal asked the run to stop";
+      code = ExitCode::interrupted;
+    }
+  }
+  catch (const PhysicsError &e)
+  {
+    status = "failed";
+    reason = e.what();
+    code = ExitCode::physics_failed;
+    log.line("");
+    log.line("The run went wrong at time " +
+             format("%.6e", integrator.time) + " s, step " +
+             std::to_string(step) + ": " + reason);
+  }
+  try
+  {
+    write_outputs(true);
+    write_result(status, reason);
+  }
+  catch (const IOError &)
+  {
+    throw;
+  }
+  return code;
+}
+
+void Run::start()
+{
+  std::string problem;
+  if (rank == 0)
+    try
+    {
+      make_folder(folder);
+      log.open(folder + "/log.txt", false);
+      std::ostringstream text;
+      text << "# Sabot " << version() << "\n";
+      print_expanded(scene.prm, text);
+      write_text(folder + "/parameters.prm", text.str());
+    }
+    catch (const IOError &e)
+    {
+      problem = e.what();
+    }
+  int bad = !problem.empty();
+  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
+  if (bad)
+    throw IOError(problem.empty() ? "rank 0 could not write its output"
+                                  : problem);
+  for (const OutputSettings &output : scene.outputs)
+    if (output.type == OutputSettings::Type::vtu && !fields)
+      fields = std::make_unique<VtuWriter>(folder, communicator);
+
+  log.line("Sabot " + version() + ", " + std::to_string(n_ranks) +
+           (n_ranks == 1 ? " rank" : " ranks") +
+           (scene.settings.title.empty() ? "" : ": " + scene.settings.title));
+  {
+    const auto timer = timers.scope("set-up");
+    scene.distribute();
+    integrator.initialize();
+  }
+  for (const auto &body : scene.bodies)
+    log.line("  body " + body->name + ": " + std::to_string(body->n_items()) +
+             " " + body->item_name());
+  for (const std::string &warning : scene.warnings)
+    log.warning(warning);
+  for (const auto &coupling : scene.couplings)
+    for (const Measure &m : coupling->measure())
+    {
+      if (m.name == "tied nodes")
+        log.line("  tie " + coupling->name + ": " +
+                 format("%.0f", m.value) + " nodes");
+      if (m.name == "initial penetration over spacing" && m.value > 0.)
+        log.warning("contact " + coupling->name +
+                    ": nodes start inside the other body by up to " +
+                    format("%.3g", m.value) + " spacings");
+    }
+
+  next_output.assign(scene.outputs.size(), 0.);
+  const Balance balance = balance_energy();
+  initial_energy = balance.total;
+  largest_energy = std::abs(balance.total);
+  for (const auto &body : scene.bodies)
+  {
+    double mass = 0.;
+    std::array<double, 3> velocity{};
+    for (const Measure &m : body->measure())
+    {
+      if (m.name == "mass")
+        mass = m.value;
+      for (int d = 0; d < 3; ++d)
+        if (m.name == std::string("velocity ") + "xyz"[d])
+          velocity[d] = m.value;
+      if (m.name == "kinetic energy")
+        momentum_scale += std::sqrt(2. * m.value * mass);
+    }
+    for (int d = 0; d < 3; ++d)
+      initial_momentum[d] += mass * velocity[d];
+  }
+  record();
+  write_outputs(false);
+}
+
+double Run::next_step(const StepProposal &proposal) const
+{
+  const double stable = scene.settings.step_factor * proposal.dt;
+  double next = std::min(stable, scene.settings.largest_step);
+  // A step may grow slowly only: contact penalties follow it.
+  if (step > 0)
+    next = std::min(next, 1.05 * dt);
+  const double left = scene.settings.end_time - integrator.time;
+  return left <= next * (1. + 1e-9) ? left : next;
+}
+
+bool Run::record_due() const
+{
+  const double slack = 1e-9 * scene.settings.end_time;
+  for (std::size_t o = 0; o < scene.outputs.size(); ++o)
+    if (scene.outputs[o].type == OutputSettings::Type::history &&
+        integrator.time >= next_output[o] - slack)
+      return true;
+  return false;
+}
+
+void Run::loop()
+{
+  while (integrator.time < scene.settings.end_time * (1. - 1e-12))
+  {
+    const StepProposal proposal = integrator.propose(asked_to_stop != 0);
+    if (proposal.interrupted)
+    {
+      interrupted = true;
+      return;
+    }
+    dt = next_step(proposal);
+    limiter = proposal.limiter;
+    if (!(dt > 0.))
+      throw PhysicsError("no stable step exists any more (limiter: " +
+                         limiter + ")");
+    if (proposal.dt < 1e-4 * smallest_step && step > 10)
+      throw PhysicsError("the stable step collapsed from " +
+                         format("%.3e", smallest_step) + " s to " +
+                         format("%.3e", proposal.dt) +
+                         " s (limiter: " + limiter + ")");
+    if (dt < scene.settings.end_time - integrator.time)
+      smallest_step = std::min(smallest_step, proposal.dt);
+    integrator.advance(dt);
+    ++step;
+    integrator.update_topology(step);
+    const bool check =
+        integrator.time >= next_check ||
+        integrator.time >= scene.settings.end_time * (1. - 1e-12);
+    if (check || record_due())
+    {
+      next_check =
+          integrator.time + scene.settings.end_time / checks_per_run;
+      const auto timer = timers.scope("balance");
+      record();
+    }
+    write_outputs(false);
+    log.progress(progress_text());
+    if (check)
+      check_energy();
+  }
+  log.progress(progress_text(), true);
+}
+
+Run::Balance Run::balance_energy()
+{
+  EnergyLedger e;
+  for (const auto &body : scene.bodies)
+    body->add_energies(e);
+  for (const auto &coupling : scene.couplings)
+    coupling->add_energies(e);
+  ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
+                    &e.contact, &e.friction, &e.external, &e.plastic_work},
+                   communicator);
+  ExactSum total = e.kinetic;
+  for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
+                               &e.contact, &e.friction})
+    total.add(*part);
+  total.subtract(e.external);
+  Balance balance;
+  balance.total = total.value();
+  largest_energy = std::max(largest_energy, std::abs(balance.total));
+  balance.residual =
+      largest_energy > 0. && step > 0
+          ? std::abs(balance.total - initial_energy) / largest_energy
+          : 0.;
+  ledger = {{"time", "s", integrator.time},
+            {"step size", "s", dt},
+            {"kinetic", "J", e.kinetic.value()},
+            {"internal", "J", e.internal.value()},
+            {"stabilisation", "J", e.stabilization.value()},
+            {"hourglass", "J", e.hourglass.value()},
+            {"contact", "J", e.contact.value()},
+            {"friction", "J", e.friction.value()},
+            {"external", "J", e.external.value()},
+            {"plastic work", "J", e.plastic_work.value()},
+            {"total", "J", balance.total},
+            {"residual", "1", balance.residual}};
+  return balance;
+}
+
+double Run::momentum_residual() const
+{
+  std::array<double, 3> change = {
+      {-initial_momentum[0], -initial_momentum[1], -initial_momentum[2]}};
+  for (const auto &body : scene.bodies)
+  {
+    const Measures measures = body->measure();
+    for (int d = 0; d < 3; ++d)
+      change[d] += measures[0].value * measures[1 + d].value;
+  }
+  return momentum_scale > 0.
+             ? std::sqrt(change[0] * change[0] + change[1] * change[1] +
+                         change[2] * change[2]) /
+                   momentum_scale
+             : 0.;
+}
+
+void Run::record()
+{
+  const Balance balance = balance_energy();
+  last_residual = balance.residual;
+  largest_residual = std::max(largest_residual, balance.residual);
+  if (std::isnan(balance.residual))
+    largest_residual = balance.residual;
+  if (scene.is_free)
+    largest_momentum_residual =
+        std::max(largest_momentum_residual, momentum_residual());
+  history.append("ledger", ledger);
+  for (const auto &body : scene.bodies)
+  {
+    Measures row = {{"time", "s", integrator.time}};
+    const Measures measures = body->measure();
+    row.insert(row.end(), measures.begin(), measures.end());
+    history.append(body->name, row);
+  }
+  if (!scene.quantities.empty())
+  {
+    Measures row = {{"time", "s", integrator.time}};
+    const Measures values = quantities();
+    row.insert(row.end(), values.begin(), values.end());
+    history.append("quantities", row);
+  }
+}
+
+void Run::check_energy()
+{
+  if (last_residual <= scene.settings.energy_limit)
+    return;
+  // Name the part that holds the surplus.
+  const Measure *largest = nullptr;
+  for (const Measure &m : ledger)
+    if (m.unit == "J" && m.name != "total" && m.name != "plastic work" &&
+        (largest == nullptr || !(std::abs(m.value) <= std::abs(largest->value))))
+      largest = &m;
+  throw PhysicsError(
+      "the energy balance is off by " + format("%.3g", 100. * last_residual) +
+      " %, more than the limit of " +
+      format("%.3g", 100. * scene.settings.energy_limit) +
+      " %; largest part: " + largest->name + " " +
+      format("%.6g", largest->value) + " J; the step was limited by " + limiter);
+}
+
+Measures Run::quantities() const
+{
+  Measures values;
+  for (const QuantityOfInterest &q : scene.quantities)
+  {
+    const Measures measures = scene.bodies[q.body]->measure();
+    const auto find = [&](const std::string &name) {
+      for (const Measure &m : measures)
+        if (m.name == name)
+          return m.value;
+      return 0.;
+    };
+    int axis = 0;
+    for (int d = 1; d < 3; ++d)
+      if (std::abs(q.direction[d]) > std::abs(q.direction[axis]))
+        axis = d;
+    const auto extent = [&](const int d) {
+      const std::string letter(1, "xyz"[d]);
+      return find("maximum " + letter) - find("minimum " + letter);
+    };
+    using Type = QuantityOfInterest::Type;
+    if (q.type == Type::velocity)
+      values.push_back({q.name, "m/s",
+                        q.direction[0] * find("velocity x") +
+                            q.direction[1] * find("velocity y") +
+                            q.direction[2] * find("velocity z")});
+    else if (q.type == Type::length)
+      values.push_back({q.name, "m", extent(axis)});
+    else if (q.type == Type::radius)
+      values.push_back({q.name, "m",
+                        0.25 * (extent((axis + 1) % 3) +
+                                extent((axis + 2) % 3))});
+    else
+    {
+      const std::string letter(1, "xyz"[axis]);
+      const double tip = q.direction[axis] > 0. ? find("maximum " + letter)
+                                                : -find("minimum " + letter);
+      values.push_back({q.name, "m", tip - q.origin});
+    }
+  }
+  return values;
+}
+
+void Run::write_fields()
+{
+  const auto timer = timers.scope("output");
+  std::vector<std::string> names;
+  for (const auto &body : scene.bodies)
+  {
+    fields->write_body(body->name, body->output_mesh(), frame);
+    names.push_back(body->name);
+  }
+  fields->add_time(integrator.time, frame, names);
+  ++frame;
+}
+
+void Run::write_outputs(const bool all)
+{
+  const double slack = 1e-9 * scene.settings.end_time;
+  bool write_history = all && rank == 0;
+  for (std::size_t o = 0; o < scene.outputs.size(); ++o)
+  {
+    const OutputSettings &output = scene.outputs[o];
+    const bool is_vtu = output.type == OutputSettings::Type::vtu;
+    const bool new_time = !fields || fields->frames.empty() ||
+                          fields->frames.back().first != integrator.time;
+    if (is_vtu && fields && new_time &&
+        (all || integrator.time >= next_output[o] - slack))
+    {
+      write_fields();
+      write_history = rank == 0; // kept as far as the fields
+    }
+    while (next_output[o] - slack <= integrator.time)
+      next_output[o] += output.interval;
+  }
+  int bad = 0;
+  std::string problem;
+  if (write_history && !history.tables.empty())
+    try
+    {
+      history.write(folder + "/history.h5");
+    }
+    catch (const IOError &e)
+    {
+      problem = e.what();
+      bad = 1;
+    }
+  if (all || (fields && !scene.outputs.empty()))
+    MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
+  if (bad)
+    throw IOError(problem.empty() ? "rank 0 could not write its output"
+                                  : problem);
+}
+
+std::string Run::progress_text() const
+{
+  const double wall = std::chrono::duration<double>(
+                          std::chrono::steady_clock::now() - start_time)
+                          .count();
+  const double done = integrator.time / scene.settings.end_time;
+  const double left = done > 0. ? wall * (1. - done) / done : 0.;
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "step %6u  time %.4e s (%3.0f %%)  dt %.3e s (%s)  energy "
+                "residual %.2e  ETA %.0f s",
+                step, integrator.time, 100. * done, dt, limiter.c_str(),
+                last_residual, left);
+  return text;
+}
+} // namespace sabot

@@ -1,0 +1,191 @@
+#include "sabot/couplings/contact.h"
+#include "sabot/output/file_tools.h"
+#include "sabot/simulation/run.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sabot
+{
+namespace
+{
+using nlohmann::ordered_json;
+
+/** JSON has no not-a-number. */
+ordered_json number(const double value)
+{
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+double cpu_seconds(const rusage &usage)
+{
+  return usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
+         1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+} // namespace
+
+ordered_json Run::body_results() const
+{
+  ordered_json bodies = ordered_json::object();
+  for (const auto &body : scene.bodies)
+  {
+    ordered_json b;
+    b[body->item_name()] = body->n_items();
+    ordered_json velocity = ordered_json::array();
+    bool has_eroded = false;
+    for (const Measure &m : body->measure())
+    {
+      if (m.name.compare(0, 9, "velocity ") == 0)
+      {
+        velocity.push_back(number(m.value));
+        if (velocity.size() == 3)
+          b["velocity"] = velocity;
+        continue;
+      }
+      std::string key = m.name;
+      for (char &c : key)
+        if (c == ' ')
+          c = '_';
+      b[key] = number(m.value);
+      has_eroded = has_eroded || key == "eroded_mass";
+    }
+    if (!b.contains("bonds_broken_fraction"))
+      b["bonds_broken_fraction"] = 0.;
+    if (!has_eroded)
+      b["eroded_mass"] = 0.;
+    bodies[body->name] = b;
+  }
+  return bodies;
+}
+
+ordered_json Run::timer_results() const
+{
+  ordered_json result = ordered_json::object();
+  for (const auto &[name, phase] : timers.all())
+  {
+    // Items: what the loop runs over, on all ranks, per call.
+    double items = 0.;
+    for (const auto &body : scene.bodies)
+      if (name == body->step_timer_name())
+        items += body->n_items();
+    ordered_json t;
+    t["seconds"] = phase.seconds;
+    t["calls"] = phase.calls;
+    int n_bodies = 0;
+    for (const auto &body : scene.bodies)
+      n_bodies += name == body->step_timer_name();
+    t["ns_per_item"] =
+        items > 0. ? ordered_json(1e9 * phase.seconds * n_ranks * n_bodies /
+                                  (items * phase.calls))
+                   : ordered_json(nullptr);
+    result[name] = t;
+  }
+  return result;
+}
+
+void Run::write_result(const std::string &status, const std::string &reason)
+{
+  const Measures values = quantities();
+  ordered_json r;
+  r["title"] = scene.settings.title;
+  r["version"] = version();
+  r["status"] = status;
+  r["reason"] = reason;
+  r["ranks"] = n_ranks;
+  r["steps"] = step;
+  r["time"] = integrator.time;
+  r["wall_seconds"] = std::chrono::duration<double>(
+                          std::chrono::steady_clock::now() - start_time)
+                          .count();
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  double sums[2] = {cpu_seconds(usage), 1024. * usage.ru_maxrss};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
+  r["cpu_seconds"] = sums[0];
+  r["peak_memory_bytes"] = static_cast<std::int64_t>(sums[1]);
+  r["energy_residual_max"] = number(largest_residual);
+  r["momentum_residual_max"] = scene.is_free
+                                   ? number(largest_momentum_residual)
+                                   : ordered_json(nullptr);
+  r["stable_step_min"] =
+      step > 0 ? number(smallest_step) : ordered_json(nullptr);
+  r["bodies"] = body_results();
+  r["quantities"] = ordered_json::object();
+  for (const Measure &m : values)
+    r["quantities"][m.name] = {{"value", number(m.value)}, {"unit", m.unit}};
+  r["energy"] = ordered_json::object();
+  for (const Measure &m : ledger)
+    if (m.unit == "J")
+      r["energy"][m.name] = number(m.value);
+  r["timers"] = timer_results();
+  double penetration = 0., initial = 0.;
+  for (const auto &coupling : scene.couplings)
+    for (const Measure &m : coupling->measure())
+    {
+      if (m.name == "penetration max over spacing")
+        penetration = std::max(penetration, m.value);
+      if (m.name == "initial penetration over spacing")
+        initial = std::max(initial, m.value);
+    }
+  r["contact"] = {{"penetration_max_over_spacing", number(penetration)},
+                  {"initial_penetration_over_spacing", number(initial)}};
+  // What trades speed for accuracy, as the scene set it.
+  r["knobs"] = {{"Step factor", scene.settings.step_factor}};
+  for (const auto &body : scene.bodies)
+    for (const char *const entry :
+         {"Nodal spacing", "Cell size", "Coarsest cell size", "Growth ratio",
+          "Normalised support size", "Kernel update interval",
+          "Stabilisation coefficient", "Hourglass control",
+          "Hourglass coefficient"})
+    {
+      scene.prm.enter_subsection("Bodies");
+      scene.prm.enter_subsection(body->name);
+      std::string text;
+      bool known = true;
+      try
+      {
+        text = scene.prm.get(entry);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        known = false; // not an entry of this kind of body
+      }
+      scene.prm.leave_subsection();
+      scene.prm.leave_subsection();
+      if (known)
+        r["knobs"]["Bodies/" + body->name + "/" + entry] = text;
+    }
+
+  std::string problem;
+  if (rank == 0)
+    try
+    {
+      write_text(folder + "/result.json", r.dump(2) + "\n");
+    }
+    catch (const IOError &e)
+    {
+      problem = e.what();
+    }
+  int bad = !problem.empty();
+  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
+  if (bad)
+    throw IOError(problem.empty() ? "rank 0 could not write its output"
+                                  : problem);
+
+  char text[200];
+  std::snprintf(text, sizeof(text),
+                "%s: %u steps to %.4e s in %.1f s; energy residual %.2e",
+                status.c_str(), step, integrator.time,
+                r["wall_seconds"].get<double>(), largest_residual);
+  log.line(text);
+  for (const Measure &m : values)
+  {
+    std::snprintf(text, sizeof(text), "  %s: %.6g %s", m.name.c_str(), m.value,
+                  m.unit.c_str());
+    log.line(text);
+  }
+}
+} // namespace sabot

@@ -1,0 +1,233 @@
+#include "sabot/base/error.h"
+#include "sabot/base/nearest_name.h"
+#include "sabot/base/quantity.h"
+#include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/spg/spg_body.h"
+#include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/partition.h"
+#include "sabot/simulation/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+std::array<double, 3> get_vector(const dealii::ParameterHandler &prm,
+                                 const std::string &entry)
+{
+  const std::vector<double> v = get_quantities(prm, entry);
+  return {{v[0], v[1], v[2]}};
+}
+
+/** Enters Section/name of a ParameterHandler while it lives. */
+class Entered
+{
+public:
+  Entered(dealii::ParameterHandler &prm, const std::string &section,
+          const std::string &name)
+      : prm(prm)
+  {
+    prm.enter_subsection(section);
+    prm.enter_subsection(name);
+  }
+  ~Entered()
+  {
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+private:
+  dealii::ParameterHandler &prm;
+};
+
+[[noreturn]] void unknown_name(const std::string &path, const std::string &what,
+                               const std::string &name,
+                               const std::vector<std::string> &allowed)
+{
+  if (name.empty())
+    throw InputError(path, "needs the name of a " + what);
+  std::string message = "no " + what + " is called \"" + name + "\"";
+  if (!allowed.empty())
+    message += "; did you mean \"" + nearest_name(name, allowed) + "\"?";
+  throw InputError(path, message);
+}
+
+/** Numbers of the named faces of a geometry. */
+std::vector<unsigned int> face_ids(const std::string &path,
+                                   const std::string &text,
+                                   const std::vector<std::string> &allowed)
+{
+  std::vector<unsigned int> ids;
+  for (const std::string &face : split_names(text))
+  {
+    const auto found = std::find(allowed.begin(), allowed.end(), face);
+    if (found == allowed.end())
+    {
+      std::string all;
+      for (const std::string &a : allowed)
+        all += (all.empty() ? "" : ", ") + a;
+      throw InputError(path, "\"" + face + "\" is not a face; allowed: " + all);
+    }
+    ids.push_back(found - allowed.begin());
+  }
+  return ids;
+}
+} // namespace
+
+Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
+    : file(file), communicator(communicator)
+{
+  declare(prm, &file);
+  file.parse_into(prm);
+  read_settings();
+  build_materials();
+  build_bodies();
+  check_overlaps();
+  build_couplings();
+  build_outputs();
+  build_quantities();
+}
+
+void Scene::read_settings()
+{
+  settings.title = prm.get("Title");
+  settings.end_time = get_quantity(prm, "End time");
+  settings.step_factor = get_quantity(prm, "Step factor");
+  settings.largest_step = get_quantity(prm, "Largest step");
+  settings.energy_limit = get_quantity(prm, "Energy residual limit");
+  if (split_names(prm.get("Bodies")).empty())
+    throw InputError("Bodies", "the scene has no bodies; list their names");
+}
+
+void Scene::build_materials()
+{
+  for (const std::string &name : file.subsections("Materials"))
+  {
+    const Entered entered(prm, "Materials", name);
+    material_by_name[name] = Material::make(prm, "Materials/" + name);
+  }
+}
+
+/** A box cut out of a FEM body for particles. */
+struct Scene::Carving
+{
+  std::string body, zone;
+  std::array<double, 3> centre, size;
+};
+
+void Scene::build_bodies()
+{
+  const std::vector<std::string> names = split_names(prm.get("Bodies"));
+  std::vector<Carving> carvings;
+  for (const std::string &name : names)
+  {
+    const Entered entered(prm, "Bodies", name);
+    if (prm.get("Discretization") != "SPG" || prm.get("Carve from").empty())
+      continue;
+    const std::string from = prm.get("Carve from");
+    if (std::find(names.begin(), names.end(), from) == names.end() ||
+        from == name)
+      unknown_name("Bodies/" + name + "/Carve from", "body", from, names);
+    for (const Carving &other : carvings)
+      if (other.body == from)
+        throw InputError("Bodies/" + name + "/Carve from",
+                         "body \"" + from + "\" already has the zone \"" +
+                             other.zone + "\"; one zone per body");
+    carvings.push_back(
+        {from, name, get_vector(prm, "Centre"), get_vector(prm, "Size")});
+  }
+
+  for (const std::string &name : names)
+  {
+    const std::string path = "Bodies/" + name;
+    const Entered entered(prm, "Bodies", name);
+    std::vector<std::string> known;
+    for (const auto &entry : material_by_name)
+      known.push_back(entry.first);
+    const auto material = material_by_name.find(prm.get("Material"));
+    if (material == material_by_name.end())
+      unknown_name(path + "/Material", "material", prm.get("Material"), known);
+    const auto centre = get_vector(prm, "Centre");
+
+    if (prm.get("Discretization") == "SPG")
+    {
+      SpgOptions options = SpgOptions::parse(prm);
+      options.initial_velocity = get_vector(prm, "Initial velocity");
+      bodies.push_back(std::make_unique<SpgBody>(
+          name, bodies.size(),
+          make_box_cloud(centre, get_vector(prm, "Size"),
+                         get_quantity(prm, "Nodal spacing")),
+          material->second, options));
+      continue;
+    }
+
+    FemOptions options = FemOptions::parse(prm);
+    options.initial_velocity = get_vector(prm, "Initial velocity");
+    const double cell_size = get_quantity(prm, "Cell size");
+    const auto carving =
+        std::find_if(carvings.begin(), carvings.end(),
+                     [&](const Carving &c) { return c.body == name; });
+    HexMesh mesh;
+    if (prm.get("Geometry") == "cylinder")
+    {
+      if (carving != carvings.end())
+        throw InputError("Bodies/" + carving->zone + "/Carve from",
+                         "a zone can only be carved from a box");
+      options.clamped_boundary_ids =
+          face_ids(path + "/Clamped faces", prm.get("Clamped faces"),
+                   {"lower", "upper", "side"});
+      const std::string axis = prm.get("Axis");
+      mesh = make_cylinder(get_quantity(prm, "Radius"),
+                           get_quantity(prm, "Length"),
+                           axis == "x" ? 0 : axis == "y" ? 1 : 2, centre,
+                           cell_size);
+    }
+    else
+    {
+      options.clamped_boundary_ids =
+          face_ids(path + "/Clamped faces", prm.get("Clamped faces"),
+                   {"-x", "+x", "-y", "+y", "-z", "+z"});
+      BoxSpecification box;
+      box.centre = centre;
+      box.size = get_vector(prm, "Size");
+      box.cell_size = cell_size;
+      box.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
+      box.growth_ratio = get_quantity(prm, "Growth ratio");
+      if (carving != carvings.end())
+      {
+        box.has_zone = true;
+        box.zone_centre = carving->centre;
+        box.zone_size = carving->size;
+        box.zone_path = "Bodies/" + carving->zone;
+      }
+      mesh = make_graded_box(box);
+    }
+    is_free = is_free && options.clamped_boundary_ids.empty();
+    bodies.push_back(std::make_unique<FemBody>(
+        name, bodies.size(), std::move(mesh), material->second, options));
+  }
+}
+
+int Scene::body_index(const std::string &path,
+                      const std::string &body_name) const
+{
+  std::vector<std::string> names;
+  for (const auto &body : bodies)
+  {
+    if (body->name == body_name)
+      return body->id;
+    names.push_back(body->name);
+  }
+  unknown_name(path, "body", body_name, names);
+}
+
+std::vector<Body *> Scene::body_pointers() const
+{
+  std::vector<Body *> pointers;
+  for (const auto &body : bodies)
+    pointers.push_back(body.get());
+  return pointers;
+}
+} // namespace sabot

@@ -1,0 +1,239 @@
+#include "sabot/base/quantity.h"
+#include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/spg/spg_body.h"
+#include "sabot/simulation/scene.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+namespace
+{
+using dealii::ParameterHandler;
+namespace Patterns = dealii::Patterns;
+
+const Patterns::List names(Patterns::Anything(), 0, 1000, ",");
+
+void declare_top(ParameterHandler &prm)
+{
+  prm.declare_entry("Title", "", Patterns::Anything(),
+                    "What the scene shows; one line.");
+  prm.declare_entry("End time", "0.1 ms",
+                    QuantityPattern(Dimension::time, 1e-12, 1e3),
+                    "Physical time at which the run ends.");
+  prm.declare_entry("Step factor", "0.9",
+                    QuantityPattern(Dimension::none, 0.01, 2.),
+                    "Step over the least stable step of bodies and "
+                    "couplings; above 1 the run is expected to be caught.");
+  prm.declare_entry("Largest step", "1 s",
+                    QuantityPattern(Dimension::time, 1e-15, 1.),
+                    "Upper bound of the step.");
+  prm.declare_entry("Energy residual limit", "0.05",
+                    QuantityPattern(Dimension::none, 1e-6, 1e3),
+                    "The run stops with exit code 2 when the energy balance "
+                    "is off by more than this fraction.");
+  prm.declare_entry("Bodies", "", names, "Names of the bodies, in order.");
+  prm.declare_entry("Couplings", "", names, "Names of the couplings.");
+  prm.declare_entry("Outputs", "", names, "Names of the outputs.");
+  prm.declare_entry("Quantities", "", names,
+                    "Names of the quantities of interest in result.json.");
+}
+
+void declare_body(ParameterHandler &prm, const std::string &discretization,
+                  const std::string &geometry)
+{
+  prm.declare_entry("Discretization", "FEM", Patterns::Selection("FEM|SPG"),
+                    "FEM: one-point hexahedra; SPG: smoothed-particle-Galerkin "
+                    "particles.");
+  prm.declare_entry("Geometry", "box",
+                    Patterns::Selection(discretization == "SPG"
+                                            ? "box"
+                                            : "box|cylinder"),
+                    "Shape of the body.");
+  prm.declare_entry("Material", "", Patterns::Anything(),
+                    "Name of a subsection of Materials.");
+  const QuantityPattern vector3(Dimension::length, 3, 3, -1e3, 1e3);
+  prm.declare_entry("Centre", "0 m, 0 m, 0 m", vector3,
+                    "Position of the centre.");
+  prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
+                    QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
+                    "Velocity at time 0, less than 100 km/s per component.");
+  if (geometry == "cylinder")
+  {
+    prm.declare_entry("Radius", "1 mm",
+                      QuantityPattern(Dimension::length, 1e-9, 1e3),
+                      "Radius of the cylinder.");
+    prm.declare_entry("Length", "1 mm",
+                      QuantityPattern(Dimension::length, 1e-9, 1e3),
+                      "Length of the cylinder.");
+    prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z"),
+                      "Direction of the cylinder's axis.");
+  }
+  else
+    prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
+                      QuantityPattern(Dimension::length, 3, 3, 1e-9, 1e3),
+                      "Edge lengths of the box.");
+  if (discretization == "SPG")
+  {
+    prm.declare_entry("Nodal spacing", "1 mm",
+                      QuantityPattern(Dimension::length, 1e-9, 1e2),
+                      "Distance of neighbouring particles; the nearest value "
+                      "that divides each edge is used.");
+    prm.declare_entry("Carve from", "", Patterns::Anything(),
+                      "A FEM body whose cells inside this box give way to the "
+                      "particles. Add a tie to join the two.");
+    SpgOptions::declare_parameters(prm);
+  }
+  else
+  {
+    prm.declare_entry("Cell size", "1 mm",
+                      QuantityPattern(Dimension::length, 1e-9, 1e2),
+                      "Edge of the cells; next to a carved zone, where the "
+                      "mesh is graded.");
+    if (geometry == "box")
+    {
+      prm.declare_entry("Coarsest cell size", "1 km",
+                        QuantityPattern(Dimension::length, 1e-9, 1e3),
+                        "Where a zone is carved from the body, cells grow away "
+                        "from it up to this size.");
+      prm.declare_entry("Growth ratio", "1.15",
+                        QuantityPattern(Dimension::none, 1., 3.),
+                        "Size of one cell over the last, away from the zone.");
+    }
+    prm.declare_entry("Clamped faces", "", names,
+                      geometry == "box"
+                          ? "Faces held fixed, among -x, +x, -y, +y, -z, +z."
+                          : "Faces held fixed, among lower, upper, side.");
+    FemOptions::declare_parameters(prm);
+  }
+}
+
+void declare_coupling(ParameterHandler &prm, const std::string &type)
+{
+  prm.declare_entry("Type", "contact",
+                    Patterns::Selection("tie|contact|self-contact"),
+                    "tie: nodes of one body move with the surface of another; "
+                    "contact: nodes against faces, with friction; "
+                    "self-contact: debris of SPG bodies.");
+  if (type == "tie")
+  {
+    prm.declare_entry("Follower", "", Patterns::Anything(),
+                      "Body whose nodes on the leader's surface are tied.");
+    prm.declare_entry("Leader", "", Patterns::Anything(), "A FEM body.");
+    prm.declare_entry("Tolerance", "0.05",
+                      QuantityPattern(Dimension::none, 1e-6, 1.),
+                      "Distance from the surface, in follower spacings, up to "
+                      "which a node is tied.");
+    return;
+  }
+  prm.declare_entry("Bodies", "", names, "Bodies that may touch each other.");
+  prm.declare_entry("Friction coefficient", "0",
+                    QuantityPattern(Dimension::none, 0., 2.),
+                    "Coulomb friction.");
+  prm.declare_entry("Damping fraction", "0.1",
+                    QuantityPattern(Dimension::none, 0., 1.),
+                    "Of critical, while two nodes approach.");
+  prm.declare_entry("Stiffness scale", type == "contact" ? "1" : "0.2",
+                    QuantityPattern(Dimension::none, 1e-3, 10.),
+                    type == "contact"
+                        ? "Penalty stiffness over bulk modulus times spacing."
+                        : "Penalty stiffness over Young's modulus times "
+                          "spacing.");
+  if (type == "self-contact")
+    prm.declare_entry("Contact distance", "0.9",
+                      QuantityPattern(Dimension::none, 0.1, 1.),
+                      "Distance over spacing below which debris repels, unless "
+                      "it was met closer.");
+}
+
+void declare_output(ParameterHandler &prm)
+{
+  prm.declare_entry("Type", "VTU", Patterns::Selection("VTU|history"),
+                    "VTU: fields of all bodies for ParaView; history: averages "
+                    "and energies in history.h5.");
+  prm.declare_entry("Interval", "5 us",
+                    QuantityPattern(Dimension::time, 1e-15, 1e3),
+                    "Time between two writes; the end is always written.");
+}
+
+void declare_quantity(ParameterHandler &prm)
+{
+  prm.declare_entry(
+      "Type", "velocity",
+      Patterns::Selection("velocity|penetration depth|length|radius"),
+      "velocity: of the body's centre of mass along the direction; "
+      "penetration depth: how far the body reaches beyond the origin along "
+      "the direction; length, radius: extent along the direction, half extent "
+      "across it.");
+  prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
+  prm.declare_entry("Direction", "0, 0, 1",
+                    QuantityPattern(Dimension::none, 3, 3, -1e3, 1e3),
+                    "A vector along an axis; its length does not matter.");
+  prm.declare_entry("Origin", "0 m",
+                    QuantityPattern(Dimension::length, -1e3, 1e3),
+                    "Coordinate along the direction from which a penetration "
+                    "depth counts.");
+}
+} // namespace
+
+void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
+{
+  declare_top(prm);
+  const auto each = [&](const std::string &section,
+                        const std::vector<std::string> &kinds,
+                        const auto &declare_entries) {
+    prm.enter_subsection(section);
+    std::vector<std::string> present = kinds;
+    if (file != nullptr)
+    {
+      // Names in the list of the same name, and subsections that stand there.
+      present = split_names(file->value(section, ""));
+      for (const std::string &name : file->subsections(section))
+        if (std::find(present.begin(), present.end(), name) == present.end())
+        {
+          if (section != "Materials")
+            throw InputError(
+                section + "/" + name,
+                "\"" + name + "\" is not in the list \"set " + section +
+                    " = ...\"" +
+                    (present.empty() ? std::string()
+                                     : "; did you mean \"" +
+                                           nearest_name(name, present) +
+                                           "\"?"));
+          present.push_back(name);
+        }
+    }
+    for (const std::string &name : present)
+    {
+      prm.enter_subsection(name);
+      declare_entries(section + "/" + name, name);
+      prm.leave_subsection();
+    }
+    prm.leave_subsection();
+  };
+  const auto read = [&](const std::string &path, const std::string &standard) {
+    return file == nullptr ? standard : file->value(path, standard);
+  };
+  each("Materials", {"<name>"}, [&](const auto &, const auto &) {
+    Material::declare_parameters(prm);
+  });
+  each("Bodies", {"<FEM box>", "<FEM cylinder>", "<SPG box>"},
+       [&](const std::string &path, const std::string &name) {
+         const bool manual = file == nullptr;
+         declare_body(prm,
+                      manual ? name.substr(1, 3)
+                             : read(path + "/Discretization", "FEM"),
+                      manual ? name.substr(5, name.size() - 6)
+                             : read(path + "/Geometry", "box"));
+       });
+  each("Couplings", {"<tie>", "<contact>", "<self-contact>"},
+       [&](const std::string &path, const std::string &name) {
+         declare_coupling(prm, file == nullptr ? name.substr(1, name.size() - 2)
+                                               : read(path + "/Type", "contact"));
+       });
+  each("Outputs", {"<name>"},
+       [&](const auto &, const auto &) { declare_output(prm); });
+  each("Quantities", {"<name>"},
+       [&](const auto &, const auto &) { declare_quantity(prm); });
+}
+} // namespace sabot
