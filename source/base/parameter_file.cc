@@ -67,6 +67,8 @@ bool is_entry(const ordered_json &node)
 ordered_json plain_tree(const ordered_json &tree)
 {
   ordered_json plain = ordered_json::object();
+  if (!tree.is_object()) // an empty subsection is written as ""
+    return plain;
   for (const auto &item : tree.items())
     plain[demangle(item.key())] =
         is_entry(item.value()) ? item.value() : plain_tree(item.value());

@@ -97,8 +97,8 @@ void Scene::read_settings()
   settings.step_factor = get_quantity(prm, "Step factor");
   settings.largest_step = get_quantity(prm, "Largest step");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
-  if (split_names(prm.get("Bodies")).empty())
-    throw InputError("Bodies", "the scene has no bodies; list their names");
+  if (split_names(prm.get("List of bodies")).empty())
+    throw InputError("List of bodies", "the scene has no bodies; list their names");
 }
 
 void Scene::build_materials()
@@ -119,7 +119,7 @@ struct Scene::Carving
 
 void Scene::build_bodies()
 {
-  const std::vector<std::string> names = split_names(prm.get("Bodies"));
+  const std::vector<std::string> names = split_names(prm.get("List of bodies"));
   std::vector<Carving> carvings;
   for (const std::string &name : names)
   {

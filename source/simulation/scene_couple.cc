@@ -74,7 +74,7 @@ void Scene::build_couplings()
   const std::vector<Body *> pointers = body_pointers();
   std::set<std::pair<int, int>> tied;
   std::vector<std::unique_ptr<Coupling>> ties;
-  const std::vector<std::string> names = split_names(prm.get("Couplings"));
+  const std::vector<std::string> names = split_names(prm.get("List of couplings"));
   for (const bool ties_now : {true, false})
     for (const std::string &name : names)
     {
@@ -163,7 +163,7 @@ void Scene::build_couplings()
 
 void Scene::build_outputs()
 {
-  for (const std::string &name : split_names(prm.get("Outputs")))
+  for (const std::string &name : split_names(prm.get("List of outputs")))
   {
     prm.enter_subsection("Outputs");
     prm.enter_subsection(name);
@@ -178,7 +178,7 @@ void Scene::build_outputs()
 
 void Scene::build_quantities()
 {
-  for (const std::string &name : split_names(prm.get("Quantities")))
+  for (const std::string &name : split_names(prm.get("List of quantities")))
   {
     const std::string path = "Quantities/" + name;
     prm.enter_subsection("Quantities");

@@ -4,6 +4,7 @@
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace sabot
 {
@@ -32,10 +33,10 @@ void declare_top(ParameterHandler &prm)
                     QuantityPattern(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
                     "is off by more than this fraction.");
-  prm.declare_entry("Bodies", "", names, "Names of the bodies, in order.");
-  prm.declare_entry("Couplings", "", names, "Names of the couplings.");
-  prm.declare_entry("Outputs", "", names, "Names of the outputs.");
-  prm.declare_entry("Quantities", "", names,
+  prm.declare_entry("List of bodies", "", names, "Names of the bodies, in order.");
+  prm.declare_entry("List of couplings", "", names, "Names of the couplings.");
+  prm.declare_entry("List of outputs", "", names, "Names of the outputs.");
+  prm.declare_entry("List of quantities", "", names,
                     "Names of the quantities of interest in result.json.");
 }
 
@@ -186,22 +187,24 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
     std::vector<std::string> present = kinds;
     if (file != nullptr)
     {
-      // Names in the list of the same name, and subsections that stand there.
-      present = split_names(file->value(section, ""));
-      for (const std::string &name : file->subsections(section))
-        if (std::find(present.begin(), present.end(), name) == present.end())
-        {
-          if (section != "Materials")
-            throw InputError(
-                section + "/" + name,
-                "\"" + name + "\" is not in the list \"set " + section +
-                    " = ...\"" +
-                    (present.empty() ? std::string()
-                                     : "; did you mean \"" +
-                                           nearest_name(name, present) +
-                                           "\"?"));
-          present.push_back(name);
-        }
+      // Listed names must have a subsection; others may stand unused (an
+      // including file can shorten a list), but are read as strictly.
+      present = file->subsections(section);
+      if (section != "Materials")
+      {
+        std::string list = "List of " + section;
+        list[8] = std::tolower(list[8]);
+        for (const std::string &name : split_names(file->value(list, "")))
+          if (std::find(present.begin(), present.end(), name) == present.end())
+            throw InputError(list, "\"" + name +
+                                       "\" is listed, but there is no \"" +
+                                       section + "/" + name + "\"" +
+                                       (present.empty()
+                                            ? std::string()
+                                            : "; did you mean \"" +
+                                                  nearest_name(name, present) +
+                                                  "\"?"));
+      }
     }
     for (const std::string &name : present)
     {

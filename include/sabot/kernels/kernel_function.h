@@ -77,17 +77,20 @@ inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
   for (int j = 0; j < 3; ++j)
     m.col(j) /= axes[j];
   const Eigen::Matrix3d c = m.transpose() * m;
-  // Cheap exit: eigenvalues of C within Gershgorin-free Frobenius bounds.
+  // Most kernels are far from the limits; the norm tells without eigenvalues.
   const double distance = (c - Eigen::Matrix3d::Identity()).norm();
   if (distance < std::min(1. - low * low, high * high - 1.))
     return h;
-  Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU |
-                                               Eigen::ComputeFullV);
-  Eigen::Vector3d s = svd.singularValues();
+  // m = U S V^T: with V from m^T m, m V diag(s'/s) V^T has singular values s'.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(c);
+  Eigen::Vector3d factor;
   for (int i = 0; i < 3; ++i)
-    s[i] = std::clamp(s[i], low, high);
-  Eigen::Matrix3d clamped =
-      svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();
+  {
+    const double s = std::sqrt(std::max(1e-12, solver.eigenvalues()[i]));
+    factor[i] = std::clamp(s, low, high) / s;
+  }
+  Eigen::Matrix3d clamped = m * solver.eigenvectors() * factor.asDiagonal() *
+                            solver.eigenvectors().transpose();
   for (int j = 0; j < 3; ++j)
     clamped.col(j) *= axes[j];
   return from_eigen(clamped);
