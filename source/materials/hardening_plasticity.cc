@@ -33,7 +33,8 @@ void HardeningPlasticity::update(const MaterialBatch &b) const
               (kinematic ? b.state(1 + c)[k] : 0.);
     const double q = std::sqrt(
         1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
-               2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])));
+               2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
+        b.extra_square[k]);
     const double excess = q - parameters.yield_stress - isotropic * eps[k];
     const double increment = excess > 0. ? excess / (3. * G + H) : 0.;
     const double scale = increment > 0. ? 1.5 * increment / q : 0.;

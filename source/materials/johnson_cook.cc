@@ -74,7 +74,8 @@ void JohnsonCook::update(const MaterialBatch &b) const
                  z = b.stress[2][k] - mean, xy = b.stress[3][k],
                  yz = b.stress[4][k], xz = b.stress[5][k];
     const double q = std::sqrt(
-        1.5 * (x * x + y * y + z * z + 2. * (xy * xy + yz * yz + xz * xz)));
+        1.5 * (x * x + y * y + z * z + 2. * (xy * xy + yz * yz + xz * xz)) +
+        b.extra_square[k]);
     b.return_factor[k] = 1.;
     b.plastic_work[k] = 0.;
     const double thermal = thermal_factor(temperature[k]);

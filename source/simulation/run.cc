@@ -205,7 +205,8 @@ void Run::loop()
     const bool check =
         integrator.time >= next_check ||
         integrator.time >= scene.settings.end_time * (1. - 1e-12);
-    if (check || record_due())
+    const bool recorded = check || record_due();
+    if (recorded)
     {
       next_check =
           integrator.time + scene.settings.end_time / checks_per_run;
@@ -214,7 +215,7 @@ void Run::loop()
     }
     write_outputs(false);
     log.progress(progress_text());
-    if (check)
+    if (recorded)
       check_energy();
   }
   log.progress(progress_text(), true);

@@ -8,6 +8,9 @@ namespace sabot
 {
 namespace
 {
+/** Hexahedra have no stress beside the stress. */
+const double no_extra[64] = {};
+
 /** The four hourglass base vectors summed with nodal values, by sums and
     differences of pairs (corner order: VTK). */
 inline void hourglass_sums(const Vec x[8], Vec mode[4])
@@ -175,6 +178,7 @@ void FemBody::stresses(const std::size_t begin, const std::size_t end,
   points.jacobian = batch.jacobian;
   std::copy(stress, stress + 6, points.stress);
   points.states = batch_states.data();
+  points.extra_square = no_extra;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
   material->update(points);

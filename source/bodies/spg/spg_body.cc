@@ -24,6 +24,9 @@ void SpgOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Kernel update interval", "30", Integer(1),
                     "Steps between updates of the Lagrangian kernel; an "
                     "update is also made when a volume changes by 60 %.");
+  prm.declare_entry("Failure check interval", "5", Integer(1),
+                    "Steps between checks of the bonds; where any fails, the "
+                    "kernel is updated at once.");
   prm.declare_entry("Critical effective plastic strain", "1e10",
                     QuantityPattern(Dimension::none, 0.),
                     "A bond fails for ever when the mean effective plastic "
@@ -47,6 +50,7 @@ SpgOptions SpgOptions::parse(const dealii::ParameterHandler &prm)
   o.normalized_support = get_quantity(prm, "Normalised support size");
   o.stabilization_coefficient = get_quantity(prm, "Stabilisation coefficient");
   o.kernel_update_interval = prm.get_integer("Kernel update interval");
+  o.failure_check_interval = prm.get_integer("Failure check interval");
   o.critical_effective_plastic_strain =
       get_quantity(prm, "Critical effective plastic strain");
   o.critical_stretch = get_quantity(prm, "Critical stretch");

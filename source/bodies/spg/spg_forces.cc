@@ -22,6 +22,7 @@ void SpgBody::compute_forces(const double /*time*/, const double dt)
   {
     const std::size_t end = std::min(begin + batch_size, n);
     gradients(begin, end, dt, problem);
+    residuals(begin, end);
     if (dt > 0.)
       stresses(begin, end, dt);
     generalized_stresses(begin, end);
@@ -146,6 +147,7 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   points.jacobian = batch.jacobian;
   std::copy(stress, stress + 6, points.stress);
   points.states = states.data();
+  points.extra_square = batch.extra_square;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
   material->update(points);
@@ -169,59 +171,63 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   }
 }
 
+void SpgBody::residuals(const std::size_t begin, const std::size_t end)
+{
+  // Trial residuals, kept in force[]. Their mean square as a stress,
+  // 3 (alpha mu)^2 sum phi |e|^2 / S = 3 alpha mu (2 W / V), yields together
+  // with the deviator (doc/theory-spg.md).
+  const Vec *const x = nodal_state.position.data();
+  const double modulus =
+      3. * options.stabilization_coefficient * material->shear_modulus();
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const Mat F = gradient[i];
+    const Vec xi = x[i];
+    double sum = 0.;
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    {
+      const Vec e = x[bonds.neighbor[b]] - xi - F * bonds.rest[b];
+      bonds.force[b] = e;
+      sum += bonds.weight[b] * norm_square(e);
+    }
+    const double twice_energy = bond_stiffness[i] * sum;
+    bond_energy[i] = 0.5 * twice_energy;
+    batch.extra_square[i - begin] = modulus * twice_energy / kernel_volume[i];
+  }
+}
+
 void SpgBody::generalized_stresses(const std::size_t begin,
                                    const std::size_t end)
 {
   const std::size_t n = nodal_state.n_owned;
-  const Vec *const x = nodal_state.position.data();
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::size_t k = i - begin;
-    const Mat F = gradient[i];
     const double q = batch.viscous_pressure[k];
     const double *const s = &stress_data[i];
     const Mat sigma = {{vec(s[0] - q, s[3 * n], s[5 * n]),
                         vec(s[3 * n], s[n] - q, s[4 * n]),
                         vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
-    const double V = kernel_volume[i] * determinant(F); // J V
+    const double V = kernel_volume[i] * determinant(gradient[i]); // J V
     Mat moment = V * (sigma * batch.nominal[k]);
 
     const double theta = batch.return_factor[k];
-    const double stiffness = bond_stiffness[i];
-    const Vec xi = x[i];
-    double stored = 0., dissipated = 0.;
+    const double stiffness = theta * bond_stiffness[i];
     if (theta < 1.)
     {
-      // Plastic flow relaxes the residual with the same factor by which the
-      // radial return scales the trial deviator.
+      // The residual flows with the deviator; what it loses is dissipated.
+      bond_dissipation[i] += 2. * theta * (1. - theta) * bond_energy[i];
+      bond_energy[i] *= theta * theta;
       const Mat relax = (1. - theta) * transpose(batch.nominal[k]);
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      {
-        const Vec rest = bonds.rest[b];
-        const Vec e = x[bonds.neighbor[b]] - xi - F * rest;
-        const double stiff = stiffness * bonds.weight[b];
-        const double e2 = stiff * norm_square(e);
-        stored += theta * theta * e2;
-        dissipated += theta * (1. - theta) * e2;
-        const Vec t = theta * stiff * e, new_rest = rest + relax * e;
-        bonds.force[b] = t;
-        bonds.rest[b] = new_rest;
-        add_outer(moment, -t, new_rest);
-      }
+        bonds.rest[b] += relax * bonds.force[b];
     }
-    else
-      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      {
-        const Vec rest = bonds.rest[b];
-        const Vec e = x[bonds.neighbor[b]] - xi - F * rest;
-        const double stiff = stiffness * bonds.weight[b];
-        stored += stiff * norm_square(e);
-        const Vec t = stiff * e;
-        bonds.force[b] = t;
-        add_outer(moment, -t, rest);
-      }
-    bond_energy[i] = 0.5 * stored;
-    bond_dissipation[i] += dissipated;
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    {
+      const Vec t = stiffness * bonds.weight[b] * bonds.force[b];
+      bonds.force[b] = t;
+      add_outer(moment, -t, bonds.rest[b]);
+    }
     generalized_stress[i] = moment * moment_inverse[i];
   }
 }

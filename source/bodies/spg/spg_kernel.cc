@@ -22,11 +22,15 @@ void SpgBody::set_up_kernel()
 
 void SpgBody::update_topology(const unsigned int step, const double)
 {
-  // Any particle that changed volume by half calls for an update, too; all
-  // ranks must agree.
-  double change = largest_change;
-  MPI_Allreduce(MPI_IN_PLACE, &change, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  if (step % options.kernel_update_interval == 0 || change > 1.6)
+  // A particle that changed volume by half calls for an update, and so do
+  // bonds that fail; all ranks must agree.
+  double urgent = largest_change > 1.6;
+  const bool regular = step % options.kernel_update_interval == 0;
+  if (!regular && step % options.failure_check_interval == 0)
+    urgent = std::max(urgent, double(find_failed_bonds()));
+  if (!regular)
+    MPI_Allreduce(MPI_IN_PLACE, &urgent, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  if (regular || urgent > 0.)
     update_kernel();
 }
 
@@ -77,33 +81,43 @@ void SpgBody::update_kernel()
   estimate_stable_step();
 }
 
-std::size_t SpgBody::fail_bonds()
+bool SpgBody::find_failed_bonds()
 {
   if (options.critical_effective_plastic_strain >= 1e10)
-    return 0;
+    return false;
   const std::size_t n = nodal_state.n_owned;
   const double *const eps = state_array("effective plastic strain");
   std::copy(eps, eps + n, plastic_strain_copy.begin());
   node_exchange.update(plastic_strain_copy.data());
-  std::vector<char> dead(bonds.capacity(), 0);
-  const double critical_square =
-      options.critical_stretch * options.critical_stretch;
+  // Only bonds with a strained end can fail (their mean exceeds the limit).
+  const double critical = options.critical_effective_plastic_strain,
+               square = options.critical_stretch * options.critical_stretch;
+  failed.assign(bonds.capacity(), 0);
+  bool any = false;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
+      if (plastic_strain_copy[i] + plastic_strain_copy[j] <= 2. * critical)
+        continue;
       const Vec now = nodal_state.position[j] - nodal_state.position[i],
                 original = nodal_state.reference_position[j] -
                            nodal_state.reference_position[i];
-      if (0.5 * (plastic_strain_copy[i] + plastic_strain_copy[j]) >
-              options.critical_effective_plastic_strain &&
-          norm_square(now) > critical_square * norm_square(original))
-      {
-        dead[b] = 1;
-        has_failed_bond[i] = 1;
-      }
+      if (norm_square(now) > square * norm_square(original))
+        failed[b] = any = true;
     }
-  return bonds.remove(dead);
+  return any;
+}
+
+std::size_t SpgBody::fail_bonds()
+{
+  if (find_failed_bonds())
+    for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+        has_failed_bond[i] |= failed[b];
+  else
+    failed.assign(bonds.capacity(), 0);
+  return bonds.remove(failed);
 }
 
 void SpgBody::compute_moments()

@@ -24,6 +24,7 @@ struct SpgOptions
   double normalized_support = 2.0;          // kernel radius over spacing
   double stabilization_coefficient = 4.0;   // alpha of the bond residual
   unsigned int kernel_update_interval = 30; // steps
+  unsigned int failure_check_interval = 5;  // steps
   double critical_effective_plastic_strain = 1e10;
   double critical_stretch = 1.0;
   double bulk_viscosity_linear = 0.06;
@@ -100,6 +101,9 @@ public:
 private:
   void set_up_kernel();
   void update_kernel();
+  /** Mark in failed[] the bonds whose criteria are met now. Collective.
+      @return whether there are any on this rank. */
+  bool find_failed_bonds();
   std::size_t fail_bonds();
   void compute_moments();
   void estimate_stable_step();
@@ -107,6 +111,7 @@ private:
                  const double dt, std::string &problem);
   void stresses(const std::size_t begin, const std::size_t end,
                 const double dt);
+  void residuals(const std::size_t begin, const std::size_t end);
   void generalized_stresses(const std::size_t begin, const std::size_t end);
   void gather_forces();
   const double *state_array(const std::string &name) const;
@@ -131,6 +136,7 @@ private:
   AlignedVector<Mat> generalized_stress; // Q
   AlignedVector<Mat> kernel;             // H, columns: semi-axes
   std::vector<double> plastic_strain_copy;
+  std::vector<char> failed; // per bond, during an update
 
   // Owned particles
   std::vector<std::uint8_t> on_face;
@@ -161,6 +167,7 @@ private:
     double strain[6][batch_size], spin[3][batch_size];
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
+    double extra_square[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
     Mat nominal[batch_size];
   };
