@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace sabot
@@ -140,10 +142,10 @@ void ParameterFile::read(const std::string &file,
   if (std::find(open_files.begin(), open_files.end(), file) != open_files.end())
     fail(included_at, "", "file \"" + file + "\" includes itself");
   std::ifstream stream(file);
-  std::stringstream content;
-  if (stream)
-    content << stream.rdbuf();
-  if (!stream || content.fail())
+  std::stringstream content(std::string(
+      std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()));
+  if (!stream.is_open() || stream.bad() ||
+      std::filesystem::is_directory(file))
     fail(included_at, "",
          "cannot read parameter file \"" + file +
              "\"; check its name and that it is a readable text file");

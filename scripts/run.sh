@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Set up, build and run a scene: scripts/run.sh [scene.prm] [sabot's options]
+# Without a scene: the plate of prm/perforation/quick.prm.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+scene=$root/prm/perforation/quick.prm
+if [ $# -gt 0 ] && [[ $1 != -* ]]; then
+  scene=$(realpath "$1")
+  shift
+fi
+"$root/scripts/packages.sh"
+"$root/scripts/build.sh" release
+
+folder=$root/results/$(basename "${scene%.prm}")
+code=0
+"$root/build/release/sabot" run "$scene" -o "$folder" "$@" || code=$?
+
+# The options may have named another folder.
+for ((i = 1; i < $#; ++i)); do
+  case ${!i} in -o | --output) next=$((i + 1)) folder=${!next} ;; esac
+done
+echo
+if [ -f "$folder/result.json" ]; then
+  python3 - "$folder/result.json" <<'PY'
+import json, sys
+result = json.load(open(sys.argv[1]))
+print("Result:  ", result["status"], result["reason"])
+for name, q in result["quantities"].items():
+    print("          %s = %.5g %s" % (name, q["value"], q["unit"]))
+PY
+  echo "Folder:   $folder"
+  echo "ParaView: $folder/sabot.pvd"
+fi
+exit $code

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Set up, build and run all tests.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+"$root/scripts/packages.sh"
+"$root/scripts/build.sh" release
+# OpenMPI refuses root, as which containers run, unless told twice.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+ctest --test-dir "$root/build/release" --output-on-failure

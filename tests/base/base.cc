@@ -1,0 +1,194 @@
+#include "sabot/base/exact_sum.h"
+#include "sabot/base/nearest_name.h"
+#include "sabot/base/parameter_file.h"
+#include "sabot/base/quantity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+namespace
+{
+using namespace sabot;
+
+TEST(ExactSum, does_not_depend_on_the_order)
+{
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  std::vector<double> values(1000);
+  for (double &v : values)
+    v = uniform(generator) * std::pow(10., 8. * uniform(generator));
+  ExactSum forward, backward;
+  for (const double v : values)
+    forward.add(v);
+  std::reverse(values.begin(), values.end());
+  for (const double v : values)
+    backward.add(v);
+  EXPECT_EQ(forward.value(), backward.value());
+  backward.subtract(forward);
+  EXPECT_EQ(backward.value(), 0.);
+}
+
+TEST(ExactSum, keeps_invalid_terms_visible)
+{
+  ExactSum sum;
+  sum.add(0.1);
+  EXPECT_DOUBLE_EQ(sum.value(), 0.1);
+  sum.add(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(std::isnan(sum.value()));
+  ExactSum large;
+  large.add(1e20);
+  EXPECT_TRUE(std::isnan(large.value()));
+}
+
+TEST(Quantity, units_dimensions_and_ranges)
+{
+  const QuantityPattern length(Dimension::length, 1e-6, 1.);
+  EXPECT_TRUE(length.match("12.7 mm"));
+  EXPECT_TRUE(length.match("0.0127"));
+  EXPECT_FALSE(length.match("12.7 kg"));
+  EXPECT_FALSE(length.match("12.7 m"));
+  EXPECT_FALSE(length.match("-1 mm"));
+  EXPECT_FALSE(length.match("mm"));
+  EXPECT_FALSE(length.match("nan"));
+  EXPECT_FALSE(length.match("inf"));
+  EXPECT_FALSE(length.match("1 mm, 2 mm"));
+  const QuantityPattern three(Dimension::length, 3, 3, 0., 1.);
+  EXPECT_TRUE(three.match("1 mm, 2 mm, 3 cm"));
+  EXPECT_FALSE(three.match("1 mm, 2 mm"));
+  EXPECT_FALSE(three.match("1 mm, 2 mm, "));
+
+  dealii::ParameterHandler prm;
+  prm.declare_entry("Stress", "324 MPa", QuantityPattern(Dimension::pressure));
+  prm.declare_entry("Size", "1 mm, 2 cm", QuantityPattern(Dimension::length, 2,
+                                                          2, 0., 1.));
+  EXPECT_DOUBLE_EQ(get_quantity(prm, "Stress"), 324e6);
+  EXPECT_DOUBLE_EQ(get_quantities(prm, "Size")[1], 0.02);
+}
+
+TEST(NearestName, finds_the_likely_one)
+{
+  EXPECT_EQ(nearest_name("nodal spcing", {"Size", "Nodal spacing", "Centre"}),
+            "Nodal spacing");
+}
+
+class Files : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    char name[] = "/tmp/sabot-test-XXXXXX";
+    folder = mkdtemp(name);
+    prm.declare_entry("Title", "", dealii::Patterns::Anything());
+    prm.enter_subsection("Bodies");
+    prm.enter_subsection("plate");
+    prm.declare_entry("Cell size", "1 mm", QuantityPattern(Dimension::length));
+    prm.declare_entry("Kind", "FEM", dealii::Patterns::Selection("FEM|SPG"));
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+  std::string write(const std::string &name, const std::string &text)
+  {
+    const std::string file = folder + "/" + name;
+    std::ofstream(file) << text;
+    return file;
+  }
+  std::string message(const std::string &text,
+                      const std::vector<std::string> &overrides = {})
+  {
+    try
+    {
+      const std::string file = write("scene.prm", text);
+      ParameterFile(file, overrides).parse_into(prm);
+    }
+    catch (const InputError &e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+  std::string folder;
+  dealii::ParameterHandler prm;
+};
+
+#define EXPECT_CONTAINS(text, part)                                            \
+  EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
+
+TEST_F(Files, includes_are_looked_up_beside_the_includer)
+{
+  std::filesystem::create_directory(folder + "/sub");
+  write("sub/base.prm", "include more.prm\nset Title = base\n");
+  write("sub/more.prm",
+        "subsection Bodies\nsubsection plate\nset Cell size = 3 mm\nend\nend\n");
+  const std::string file =
+      write("scene.prm", "include sub/base.prm\nset Title = mine # comment\n");
+  const ParameterFile parsed(file, {"Bodies/plate/Kind=SPG"});
+  parsed.parse_into(prm);
+  EXPECT_EQ(prm.get("Title"), "mine");
+  prm.enter_subsection("Bodies");
+  prm.enter_subsection("plate");
+  EXPECT_DOUBLE_EQ(get_quantity(prm, "Cell size"), 3e-3);
+  EXPECT_EQ(prm.get("Kind"), "SPG");
+  EXPECT_EQ(parsed.subsections("Bodies"),
+            std::vector<std::string>{"plate"});
+}
+
+TEST_F(Files, a_misspelt_entry_gets_file_line_and_a_suggestion)
+{
+  const std::string m =
+      message("subsection Bodies\nsubsection plate\nset Cell siez = 1\nend\nend");
+  EXPECT_CONTAINS(m, "scene.prm:3: ");
+  EXPECT_CONTAINS(m, "\"Cell siez\"");
+  EXPECT_CONTAINS(m, "did you mean \"Cell size\"?");
+  EXPECT_CONTAINS(message("subsection Bodys\nset Title = 1\nend"),
+                  "did you mean \"Bodies\"?");
+  EXPECT_CONTAINS(message("set Cell size = 1 mm"), "belongs to Bodies/plate");
+}
+
+TEST_F(Files, a_wrong_value_is_told_with_what_would_be_right)
+{
+  const std::string m = message(
+      "subsection Bodies\nsubsection plate\nset Cell size = 1 kg\nend\nend");
+  EXPECT_CONTAINS(m, "scene.prm:3: ");
+  EXPECT_CONTAINS(m, "\"1 kg\"");
+  EXPECT_CONTAINS(m, "a length");
+  EXPECT_CONTAINS(message("", {"Bodies/plate/Kind=SPH"}), "one of FEM SPG");
+}
+
+TEST_F(Files, structure_is_checked)
+{
+  EXPECT_CONTAINS(message("subsection Bodies\n"), "scene.prm:1: ");
+  EXPECT_CONTAINS(message("end\n"), "without a subsection");
+  EXPECT_CONTAINS(message("sett Title = x\n"), "scene.prm:1: expected set");
+  EXPECT_CONTAINS(message("set Title = a\nset Title = b\n"), "already set at");
+  EXPECT_CONTAINS(message("include nowhere.prm\n"), "nowhere.prm");
+  EXPECT_CONTAINS(message("include scene.prm\n"), "includes itself");
+  EXPECT_CONTAINS(message("", {"Title"}), "Section/Name=value");
+  EXPECT_THROW(ParameterFile(folder + "/none.prm", {}), InputError);
+}
+
+TEST_F(Files, the_expanded_file_reads_back)
+{
+  ParameterFile(write("a.prm", "set Title = round trip\nsubsection Bodies\n"
+                               "subsection plate\nset Cell size = 2 cm\nend\n"
+                               "end\n"),
+                {})
+      .parse_into(prm);
+  std::ostringstream text;
+  print_expanded(prm, text);
+  prm.set("Title", "");
+  ParameterFile(write("b.prm", text.str()), {}).parse_into(prm);
+  EXPECT_EQ(prm.get("Title"), "round trip");
+  std::ostringstream again;
+  print_expanded(prm, again);
+  EXPECT_EQ(text.str(), again.str());
+}
+} // namespace
