@@ -142,8 +142,8 @@ void ParameterFile::read(const std::string &file,
   if (std::find(open_files.begin(), open_files.end(), file) != open_files.end())
     fail(included_at, "", "file \"" + file + "\" includes itself");
   std::ifstream stream(file);
-  std::stringstream content(std::string(
-      std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()));
+  std::stringstream content(
+      std::string{std::istreambuf_iterator<char>(stream), {}});
   if (!stream.is_open() || stream.bad() ||
       std::filesystem::is_directory(file))
     fail(included_at, "",

@@ -62,8 +62,12 @@ void Contact::search()
         modulus_of[b] = surface.bulk_modulus;
         spacing = std::max(spacing, surface.spacing);
       }
-  const SearchResult found =
-      search_contacts(bodies, pairs, spacing + skin, communicator);
+  ContactMemories memories;
+  for (const Group &group : groups)
+    if (group.slot < halo.n_owned())
+      memories.emplace_back(halo.key(group.slot), group.memory);
+  const SearchResult found = search_contacts(bodies, pairs, memories,
+                                             spacing + skin, communicator);
 
   // Keep the groups in which any node is owned here: whoever owns a node
   // computes all that acts on it, from the same numbers in the same order.
@@ -99,6 +103,7 @@ void Contact::search()
   {
     Group group;
     group.slot = halo.slot(c[first].node);
+    group.memory = c[first].memory;
     group.first_face = face_slots.size();
     const std::int32_t body = c[first].node.body;
     group.spacing = spacing_of[body];
@@ -148,6 +153,18 @@ std::ptrdiff_t Contact::closest_face(const Group &group,
   return closest;
 }
 
+double Contact::effective_depth(ContactMemory &memory, const double depth,
+                                const double largest_change)
+{
+  if (memory.depth < 0.) // first seen
+    memory.offset = depth;
+  else if (depth > memory.depth + largest_change)
+    memory.offset += depth - memory.depth;
+  memory.offset = std::min(memory.offset, depth);
+  memory.depth = depth;
+  return depth - memory.offset;
+}
+
 void Contact::add_forces(const double dt)
 {
   halo.update();
@@ -155,12 +172,15 @@ void Contact::add_forces(const double dt)
   std::fill(friction_force.begin(), friction_force.end(), Vec{});
   if (dt <= 0.)
     return;
-  for (const Group &group : groups)
+  for (Group &group : groups)
   {
     FaceProjection projection;
     const std::ptrdiff_t f = closest_face(group, projection);
     if (f < 0 || projection.gap >= 0.)
+    {
+      group.memory.depth = group.memory.offset = 0.;
       continue;
+    }
     const auto &slots = face_slots[f];
     const auto &w = projection.weight;
     const Vec n = projection.normal;
@@ -171,6 +191,10 @@ void Contact::add_forces(const double dt)
       face_compliance += w[a] * w[a] / halo.inertia[slots[a]];
       v -= w[a] * halo.velocity[slots[a]];
     }
+    const double depth = effective_depth(group.memory, -projection.gap,
+                                         2. * norm(v) * dt);
+    if (depth <= 0.)
+      continue;
     const double reduced_mass =
         1. / (1. / halo.inertia[group.slot] + face_compliance);
     const double k = std::min(
@@ -179,7 +203,7 @@ void Contact::add_forces(const double dt)
     const double damping = 2. * options.damping_fraction *
                            std::sqrt(k * reduced_mass) *
                            std::max(0., -normal_rate);
-    const double pressing = -k * projection.gap + damping;
+    const double pressing = k * depth + damping;
     const Vec sliding = v - normal_rate * n;
     const double speed = norm(sliding);
     // Friction cannot do more than stop the sliding within the step.
@@ -197,7 +221,7 @@ void Contact::add_forces(const double dt)
       friction_force[slots[a]] -= w[a] * ft;
     }
     penetration_over_spacing =
-        std::max(penetration_over_spacing, -projection.gap / group.spacing);
+        std::max(penetration_over_spacing, depth / group.spacing);
   }
   for (std::size_t s = 0; s < halo.size(); ++s)
     total_force[s] = normal_force[s] + friction_force[s];

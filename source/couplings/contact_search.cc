@@ -99,6 +99,7 @@ Box box_of_faces(const Body &body, const ContactSurface &surface)
 
 SearchResult search_contacts(const std::vector<Body *> &bodies,
                              const std::vector<ContactPair> &pairs,
+                             const ContactMemories &memories,
                              const double reach, MPI_Comm communicator)
 {
   int rank;
@@ -184,12 +185,18 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
       const auto *const near = buckets[pair.faces_of].find(x);
       if (near == nullptr)
         return;
+      const NodeKey key{pair.nodes_of, 0, nodes.global_id[i]};
+      const auto known = std::lower_bound(
+          memories.begin(), memories.end(), key,
+          [](const auto &m, const NodeKey &k) { return m.first < k; });
+      const ContactMemory memory =
+          known != memories.end() && known->first == key ? known->second
+                                                         : ContactMemory();
       for (const std::int64_t f : *near)
         if (boxes[f].contains(x) &&
             project_on_face(x, result.faces[f].x).distance_square <
                 reach * reach)
-          candidates.push_back(
-              {{pair.nodes_of, 0, nodes.global_id[i]}, f});
+          candidates.push_back({key, f, memory});
     };
     if (pair.loose_nodes_only)
     {

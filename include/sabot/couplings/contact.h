@@ -52,7 +52,11 @@ private:
     std::size_t slot;
     std::size_t first_face, last_face;
     double stiffness, spacing;
+    ContactMemory memory;
   };
+  /** Part of the depth that repels; updates the memory. */
+  static double effective_depth(ContactMemory &memory, const double depth,
+                                const double largest_change);
   void search();
   /** Closest of a group's faces; -1 when none. */
   std::ptrdiff_t closest_face(const Group &group,

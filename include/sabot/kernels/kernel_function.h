@@ -60,6 +60,23 @@ inline Mat damped_inverse(const Mat &moment, const double threshold,
                     solver.eigenvectors().transpose());
 }
 
+/** Remove the tensile principal stresses of s (xx, yy, zz, xy, yz, xz). */
+inline void cut_tension(double s[6])
+{
+  Eigen::Matrix3d m;
+  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(m);
+  if (!(solver.eigenvalues()[2] > 0.))
+    return;
+  const Eigen::Matrix3d &v = solver.eigenvectors();
+  for (int i = 0; i < 3; ++i)
+    if (solver.eigenvalues()[i] > 0.)
+      m -= solver.eigenvalues()[i] * v.col(i) * v.col(i).transpose();
+  const double cut[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)};
+  std::copy(cut, cut + 6, s);
+}
+
 /** Middle eigenvalue of a symmetric matrix. */
 inline double middle_eigenvalue(const Mat &moment)
 {

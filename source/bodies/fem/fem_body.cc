@@ -107,6 +107,8 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   // Reference geometry of the cells; masses add up in global cell order.
   const std::size_t n = cell_id.size();
   geometry.resize(n);
+  hourglass_modes.resize(n);
+  viscous_pressure.assign(n, 0.);
   constexpr int h[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
                            {1, -1, -1, 1, -1, 1, 1, -1},
                            {1, -1, 1, -1, 1, -1, 1, -1},
@@ -115,8 +117,9 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   {
     const GlobalIndex c = cell_id[e];
     std::array<std::uint32_t, 8> nodes;
-    for (int m = 0; m < 4; ++m)
-      geometry[e].mode_position[m] = Vec{};
+    HourglassModes &modes = hourglass_modes[e];
+    for (Vec &mode : modes.mode)
+      mode = Vec{};
     for (int a = 0; a < 8; ++a)
     {
       nodes[a] = local.at(mesh.cells[c][a]);
@@ -124,9 +127,10 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
       geometry[e].mean_gradient[a] = vec(B[0], B[1], B[2]);
       nodal_state.lumped_mass[nodes[a]] +=
           0.125 * material->density() * mesh.volume[c];
-      for (int m = 0; m < 4; ++m)
-        geometry[e].mode_position[m] +=
-            double(h[m][a]) * nodal_state.reference_position[nodes[a]];
+      if (options.hourglass == FemOptions::Hourglass::stiffness)
+        for (int m = 0; m < 4; ++m)
+          modes.mode[m] +=
+              double(h[m][a]) * nodal_state.reference_position[nodes[a]];
     }
     connectivity.push_back(nodes);
     volume.push_back(mesh.volume[c]);
@@ -274,6 +278,8 @@ void FemBody::visit_state(StateVisitor &visitor)
   visit("force", nodal_state.force);
   visit("inertia", nodal_state.inertia);
   visit("gradient", gradient);
+  visit("hourglass modes", hourglass_modes);
+  visit("viscous pressure", viscous_pressure);
   visit("stress", stress_data);
   visit("state", state_data);
   visit("internal energy", internal_energy);

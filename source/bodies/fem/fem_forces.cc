@@ -186,8 +186,10 @@ void FemBody::stresses(const std::size_t begin, const std::size_t end,
   for (std::size_t k = 0; k < m; ++k)
   {
     internal_energy[begin + k] -=
-        2. * batch.viscous_pressure[k] * batch.half_volume[k] *
+        (viscous_pressure[begin + k] + batch.viscous_pressure[k]) *
+        batch.half_volume[k] *
         (batch.strain[0][k] + batch.strain[1][k] + batch.strain[2][k]);
+    viscous_pressure[begin + k] = batch.viscous_pressure[k];
     plastic_work[begin + k] += 2. * batch.plastic_work[k] * batch.half_volume[k];
   }
 }
@@ -213,37 +215,53 @@ void FemBody::scatter_forces(const std::size_t begin, const std::size_t end,
     Mat P = (volume[e] * batch.jacobian[k]) *
             (sigma * batch.inverse_transposed[k]);
 
-    Vec x[8], mode[4], corner[8];
-    for (int a = 0; a < 8; ++a)
-      x[a] = viscous ? nodal_state.velocity[nodes[a]]
-                     : nodal_state.position[nodes[a]];
-    hourglass_sums(x, mode);
-    Mat L = gradient[e];
-    if (viscous)
-    {
-      L = Mat::zero();
-      for (int a = 0; a < 8; ++a)
-        add_outer(L, x[a], g.mean_gradient[a]);
-    }
     // Flanagan & Belytschko 1981: viscosity ~ rho c V^(2/3), stiffness
     // ~ rho c^2 V^(1/3), both for base vectors of unit entries.
+    Vec x[8], mode[4], corner[8];
+    for (int a = 0; a < 8; ++a)
+      x[a] = nodal_state.position[nodes[a]];
+    hourglass_sums(x, mode);
     const double size = std::cbrt(volume[e] * batch.jacobian[k]);
-    const double coefficient =
-        options.hourglass_coefficient *
-        (viscous ? 0.25 * density * c * size * size
-                 : 0.125 * modulus * size);
-    double energy = 0.;
-    for (int m = 0; m < 4; ++m)
-    {
-      mode[m] -= L * g.mode_position[m];
-      energy += coefficient * norm_square(mode[m]);
-      mode[m] = coefficient * mode[m];
-      add_outer(P, -mode[m], g.mode_position[m]);
-    }
+    HourglassModes &modes = hourglass_modes[e];
     if (viscous)
-      hourglass_energy[e] += dt * energy;
+    {
+      const Mat F_inverse = transpose(batch.inverse_transposed[k]);
+      const double coefficient =
+          options.hourglass_coefficient * 0.25 * density * c * size * size;
+      Vec v[8], rate[4];
+      Mat L = Mat::zero();
+      for (int a = 0; a < 8; ++a)
+      {
+        v[a] = nodal_state.velocity[nodes[a]];
+        add_outer(L, v[a], g.mean_gradient[a]);
+      }
+      hourglass_sums(v, rate);
+      double work = 0.;
+      for (int m = 0; m < 4; ++m)
+      {
+        const Vec pulled_back = F_inverse * mode[m];
+        rate[m] -= L * pulled_back;
+        mode[m] = coefficient * rate[m];
+        work += dot(mode[m] + modes.mode[m], rate[m]);
+        modes.mode[m] = mode[m];
+        add_outer(P, -mode[m], pulled_back);
+      }
+      hourglass_energy[e] += 0.5 * dt * work;
+    }
     else
+    {
+      const double coefficient =
+          options.hourglass_coefficient * 0.125 * modulus * size;
+      double energy = 0.;
+      for (int m = 0; m < 4; ++m)
+      {
+        mode[m] -= gradient[e] * modes.mode[m];
+        energy += coefficient * norm_square(mode[m]);
+        mode[m] = coefficient * mode[m];
+        add_outer(P, -mode[m], modes.mode[m]);
+      }
       hourglass_energy[e] = 0.5 * energy;
+    }
     hourglass_spread(mode, corner);
     for (int a = 0; a < 8; ++a)
       nodal_state.force[nodes[a]] -= P * g.mean_gradient[a] + corner[a];

@@ -149,6 +149,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     for (int c = 0; c < (variable.is_tensor ? 6 : 1); ++c, ++s)
       std::fill_n(&state_data[s * n], n, variable.initial_value);
   batch_states.resize(n_states);
+  viscous_pressure.assign(n, 0.);
   internal_energy.assign(n, 0.);
   bond_energy.assign(n, 0.);
   bond_dissipation.assign(n, 0.);

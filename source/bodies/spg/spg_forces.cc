@@ -1,4 +1,5 @@
 #include "sabot/bodies/spg/spg_body.h"
+#include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/stress_update.h"
 
 #include <algorithm>
@@ -156,17 +157,22 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   for (std::size_t k = 0; k < m; ++k)
     if (weak[begin + k])
     {
-      const double mean = (stress[0][k] + stress[1][k] + stress[2][k]) / 3.;
-      for (int c = 0; c < 3; ++c)
-        stress[c][k] -= std::max(0., mean);
+      double s[6];
+      for (int c = 0; c < 6; ++c)
+        s[c] = stress[c][k];
+      cut_tension(s);
+      for (int c = 0; c < 6; ++c)
+        stress[c][k] = s[c];
     }
 
   half_work(m, old_stress, strain, batch.half_volume, &internal_energy[begin]);
   for (std::size_t k = 0; k < m; ++k)
   {
     internal_energy[begin + k] -=
-        2. * batch.viscous_pressure[k] * batch.half_volume[k] *
+        (viscous_pressure[begin + k] + batch.viscous_pressure[k]) *
+        batch.half_volume[k] *
         (batch.strain[0][k] + batch.strain[1][k] + batch.strain[2][k]);
+    viscous_pressure[begin + k] = batch.viscous_pressure[k];
     plastic_work[begin + k] += 2. * batch.plastic_work[k] * batch.half_volume[k];
   }
 }

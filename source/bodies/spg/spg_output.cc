@@ -113,6 +113,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("has failed bond", has_failed_bond);
   visit("stress", stress_data);
   visit("state", state_data);
+  visit("viscous pressure", viscous_pressure);
   visit("internal energy", internal_energy);
   visit("bond energy", bond_energy);
   visit("bond dissipation", bond_dissipation);

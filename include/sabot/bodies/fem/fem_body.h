@@ -40,7 +40,10 @@ struct FemOptions
  * reference configuration,
  *
  *   F = sum x_a (x) B_a,  f_a = -V_0 J sigma F^-T B_a - hourglass,
- *   gamma_a = h_a - sum_b (h_b X_b) . B_a,  q = sum gamma_a x_a.
+ *   gamma_a = h_a - sum_b (h_b X_b) . B_a,  q = sum gamma_a x_a
+ *
+ * for stiffness control; viscous control takes gamma and q' = sum gamma_a v_a
+ * in the present configuration, where sum gamma_a x_a = 0 (no torque).
  *
  * A rank holds every cell of its nodes (those at its border are computed by
  * several ranks alike) and adds up corner forces in global cell order: forces
@@ -100,7 +103,12 @@ private:
   struct CellGeometry
   {
     Vec mean_gradient[8];
-    Vec mode_position[4]; // sum_b h_b X_b per hourglass mode
+  };
+  /** Per hourglass mode; stiffness control: sum_b h_b X_b, viscous control:
+      the modal force of the last step, for its work. */
+  struct HourglassModes
+  {
+    Vec mode[4];
   };
 
   HexMesh mesh; // released after distribute()
@@ -115,7 +123,9 @@ private:
   // Cells of this rank's nodes, ascending
   std::vector<std::array<std::uint32_t, 8>> connectivity;
   AlignedVector<CellGeometry> geometry;
+  AlignedVector<HourglassModes> hourglass_modes;
   AlignedVector<Mat> gradient; // F
+  std::vector<double> viscous_pressure; // of the last step [Pa]
   std::vector<double> volume;  // V_0 [m^3]
   std::vector<GlobalIndex> cell_id;
   std::vector<char> owned_cell;

@@ -151,6 +151,7 @@ private:
   std::vector<char> has_failed_bond;
   std::vector<double> stress_data;      // [6][n_owned]
   std::vector<double> state_data;       // [n_states][n_owned]
+  std::vector<double> viscous_pressure; // of the last step [Pa]
   std::vector<double> internal_energy, bond_energy, bond_dissipation,
       plastic_work; // [J] per particle
   std::vector<double> update_stable_step; // [s] at the last kernel update

@@ -1,0 +1,248 @@
+#include "../support/bodies.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace sabot;
+
+SpgBody &add_block(World &world, const std::array<double, 3> &size,
+                   const double h, const double perturbation,
+                   const SpgOptions &options = SpgOptions(),
+                   std::shared_ptr<const Material> material = elastic())
+{
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "block", 0, perturbed_cloud(size, h, perturbation), material, options));
+  world.distribute();
+  return static_cast<SpgBody &>(*world.bodies[0]);
+}
+
+/** Give all particles the positions A X and compute forces. */
+void deform(SpgBody &body, const Mat &A, const double dt)
+{
+  NodalState &n = body.nodes();
+  for (std::size_t i = 0; i < n.size(); ++i)
+    n.position[i] = A * n.reference_position[i];
+  body.update_ghosts();
+  body.compute_forces(0., dt);
+}
+
+TEST(Spg, counts_of_the_reference_paper)
+{
+  const std::array<double, 3> size{{30e-3, 30e-3, 12.7e-3}};
+  const double spacing[] = {1.6e-3, 1e-3, 0.75e-3, 0.5e-3};
+  const std::size_t count[] = {3600, 13454, 30258, 96746};
+  for (int i = 0; i < 4; ++i)
+  {
+    const ParticleCloud cloud = make_box_cloud({{0, 0, 0}}, size, spacing[i]);
+    EXPECT_EQ(cloud.position.size(), count[i]);
+    double volume = 0.;
+    for (const double v : cloud.volume)
+      volume += v;
+    EXPECT_NEAR(volume, 30e-3 * 30e-3 * 12.7e-3, 1e-11 * volume);
+  }
+}
+
+TEST(Spg, a_linear_field_is_reproduced_on_a_perturbed_cloud)
+{
+  World world;
+  SpgBody &body = add_block(world, {{6e-3, 5e-3, 4e-3}}, 1e-3, 0.2);
+  const Mat A = {{vec(1.002, 0.001, -0.002), vec(0.003, 0.999, 0.001),
+                  vec(-0.001, 0.002, 1.001)}};
+  deform(body, A, 1e-9);
+  const double s0[6] = {body.stress(0, 0), body.stress(1, 0),
+                        body.stress(2, 0), body.stress(3, 0),
+                        body.stress(4, 0), body.stress(5, 0)};
+  const double scale = 1e8;
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+  {
+    const Mat F = body.deformation_gradient(i);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        EXPECT_NEAR(F(a, b), A(a, b), 1e-13);
+    for (int c = 0; c < 6; ++c)
+      EXPECT_NEAR(body.stress(c, i), s0[c], 1e-9 * scale);
+  }
+  // The bond residual vanishes for linear fields.
+  EXPECT_NEAR(measure(body, "stabilisation energy"), 0., 1e-20);
+}
+
+TEST(Spg, rigid_rotation_through_kernel_updates_gives_no_stress)
+{
+  World world;
+  SpgOptions options;
+  options.kernel_update_interval = 4;
+  SpgBody &body = add_block(world, {{4e-3, 4e-3, 4e-3}}, 1e-3, 0.2, options);
+  for (int step = 1; step <= 40; ++step)
+  {
+    const double angle = 0.1 * step, c = std::cos(angle), s = std::sin(angle);
+    deform(body, {{vec(c, -s, 0), vec(s, c, 0), vec(0, 0, 1)}}, 1e-9);
+    body.update_topology(step, 0.);
+  }
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+    for (int c = 0; c < 6; ++c)
+      EXPECT_NEAR(body.stress(c, i), 0., 1.); // Pa, of a modulus of 1e11
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+    EXPECT_NEAR(norm(body.nodes().force[i]), 0., 1e-6);
+}
+
+TEST(Spg, momenta_and_energy_of_a_free_block_through_100_kernel_updates)
+{
+  World world;
+  SpgOptions options;
+  options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+  SpgBody &body = add_block(world, {{5e-3, 5e-3, 5e-3}}, 1e-3, 0.1, options);
+  // Stretching, bending and rotation, about 1 % strain.
+  NodalState &n = body.nodes();
+  for (std::size_t i = 0; i < n.size(); ++i)
+  {
+    const Vec x = n.reference_position[i];
+    n.velocity[i] = vec(4e4 * x[0] - 1e4 * x[1], 1e4 * x[0] + 6e6 * x[0] * x[2],
+                        100. + 2e4 * x[1]);
+  }
+  world.integrator.initialize();
+  const double energy = world.total_energy();
+  const auto before = world.momenta();
+  double worst = 0.;
+  for (int step = 0; step < 3000; ++step)
+  {
+    world.advance(0.9);
+    worst = std::max(worst, std::abs(world.total_energy() - energy));
+  }
+  const auto after = world.momenta();
+  const double linear = std::abs(before[2]), angular = std::abs(before[5]);
+  for (int d = 0; d < 3; ++d)
+  {
+    EXPECT_NEAR(after[d], before[d], 1e-12 * linear);
+    EXPECT_NEAR(after[3 + d], before[3 + d], 1e-10 * angular);
+  }
+  const double own = energy - 0.5 * linear * 100.; // without the translation
+  EXPECT_LT(worst, 0.01 * own);
+}
+
+TEST(Spg, longitudinal_frequency_of_a_free_bar)
+{
+  // nu = 0: f = c / (2 L), c = sqrt(E/rho), mode cos(pi x/L).
+  World world;
+  SpgOptions options;
+  options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+  const double L = 20e-3;
+  SpgBody &body =
+      add_block(world, {{L, 3e-3, 3e-3}}, 1e-3, 0., options, elastic(0.));
+  NodalState &n = body.nodes();
+  for (std::size_t i = 0; i < n.size(); ++i)
+    n.velocity[i] =
+        vec(std::sin(M_PI * n.reference_position[i][0] / L), 0., 0.);
+  world.integrator.initialize();
+  const auto amplitude = [&]() {
+    double sum = 0.;
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+      sum += n.lumped_mass[i] * n.velocity[i][0] *
+             std::sin(M_PI * n.reference_position[i][0] / L);
+    return sum;
+  };
+  // Time of the third zero crossing: 5/4 of a period.
+  int crossings = 0;
+  double last = amplitude(), time = 0., crossing = 0.;
+  while (crossings < 3)
+  {
+    const double dt = world.advance(0.9);
+    const double now = amplitude();
+    if (now * last < 0.)
+    {
+      ++crossings;
+      crossing = time + dt * last / (last - now);
+    }
+    time += dt;
+    last = now;
+  }
+  const double exact = 1.25 * 2. * L / std::sqrt(68.9e9 / 2700.);
+  EXPECT_NEAR(crossing, exact, 0.02 * exact);
+}
+
+TEST(Spg, stable_step_is_safe_and_not_wasteful)
+{
+  for (const double factor : {0.99, 3.})
+  {
+    World world;
+    SpgOptions options;
+    options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+    SpgBody &body = add_block(world, {{5e-3, 5e-3, 5e-3}}, 1e-3, 0.2, options);
+    shake(body, 0.01);
+    world.integrator.initialize();
+    const double energy = world.total_energy();
+    double worst = 0.;
+    bool blew_up = false;
+    try
+    {
+      for (int step = 0; step < 400 && worst < 10. * energy; ++step)
+      {
+        world.advance(factor);
+        worst = std::max(worst, std::abs(world.energies()[0]));
+      }
+    }
+    catch (const PhysicsError &)
+    {
+      blew_up = true;
+    }
+    if (factor < 1.)
+      EXPECT_LT(worst, 1.01 * energy);
+    else
+      EXPECT_TRUE(blew_up || worst >= 10. * energy);
+  }
+}
+
+TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
+{
+  World world;
+  SpgOptions options;
+  options.critical_effective_plastic_strain = 0.2;
+  const auto metal = std::make_shared<HardeningPlasticity>(
+      ElasticConstants{2700., 68.9e9, 0.33},
+      HardeningParameters{324e6, 150e6, 1.});
+  SpgBody &body =
+      add_block(world, {{10e-3, 3e-3, 3e-3}}, 1e-3, 0., options, metal);
+  NodalState &n = body.nodes();
+  for (std::size_t i = 0; i < n.size(); ++i)
+    n.velocity[i] = vec(n.reference_position[i][0] > 0. ? 250. : -250., 0., 0.);
+  for (std::size_t i = 0; i < n.size(); ++i)
+    if (std::abs(n.reference_position[i][0]) < 1e-6)
+      n.velocity[i] = Vec{};
+  world.integrator.initialize();
+  const double energy = world.total_energy(), mass = measure(body, "mass");
+  const auto before = world.momenta();
+  while (world.integrator.time < 30e-6)
+    world.advance(0.9);
+  EXPECT_GT(measure(body, "bonds broken fraction"), 0.05);
+  EXPECT_LT(measure(body, "bonds broken fraction"), 0.9);
+  EXPECT_EQ(measure(body, "mass"), mass);
+  const auto after = world.momenta();
+  for (int d = 0; d < 3; ++d)
+    EXPECT_NEAR(after[d], before[d], 1e-12 * mass * 250.);
+  EXPECT_NEAR(world.total_energy(), energy, 0.02 * energy);
+  // Broken in two: the halves part.
+  double gap = 1e9, low = -1e9;
+  std::vector<double> x;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+    x.push_back(n.position[i][0]);
+  std::sort(x.begin(), x.end());
+  gap = 0.;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] - x[i - 1] > gap)
+    {
+      gap = x[i] - x[i - 1];
+      low = x[i - 1];
+    }
+  EXPECT_GT(gap, 2e-3) << low;
+}
+
+TEST(Spg, coincident_particles_are_refused)
+{
+  ParticleCloud cloud = make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, 1e-3);
+  cloud.position[7] = cloud.position[20];
+  World world;
+  world.bodies.push_back(std::make_unique<SpgBody>("block", 0, cloud, elastic(),
+                                                   SpgOptions()));
+  EXPECT_THROW(world.distribute(), InputError);
+}
+} // namespace
