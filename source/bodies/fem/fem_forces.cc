@@ -93,10 +93,12 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
     batch.jacobian[k] = J;
     batch.half_volume[k] = 0.25 * volume[e] * (J + determinant(F_old));
     batch.inverse_transposed[k] = transpose(F_inverse);
+    // Eigenvalue bound of the cell, and its smallest dimension with it.
+    double thickness;
+    const double elastic_step = cell_stable_step(e, F_inverse, J, thickness);
     const double rate = dt > 0. ? trace(l) / dt : 0.;
-    const double h = std::cbrt(volume[e] * J);
     batch.viscous_pressure[k] =
-        bulk_viscosity_pressure(density / J, c, h, rate,
+        bulk_viscosity_pressure(density / J, c, thickness, rate,
                                 options.bulk_viscosity_linear,
                                 options.bulk_viscosity_quadratic);
     if (!(J > 0.))
@@ -112,10 +114,9 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
     // Bulk viscosity shortens the step: damping ratio xi of the cell's own
     // compression.
     const double xi = options.bulk_viscosity_linear +
-                      options.bulk_viscosity_quadratic * h *
+                      options.bulk_viscosity_quadratic * thickness *
                           std::max(0., -rate) / c;
-    const double step = cell_stable_step(e, F_inverse, J) *
-                        (std::sqrt(1. + xi * xi) - xi);
+    const double step = elastic_step * (std::sqrt(1. + xi * xi) - xi);
     if (step < current_stable_step)
     {
       current_stable_step = step;
@@ -125,7 +126,7 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
 }
 
 double FemBody::cell_stable_step(const std::size_t e, const Mat &F_inverse,
-                                 const double J) const
+                                 const double J, double &thickness) const
 {
   // omega^2 <= 8 V/m (lambda tr G + 2 mu lambda_max G), G = sum b_a b_a^T with
   // the present gradients b_a = F^-T B_a (doc/theory-fem.md).
@@ -138,6 +139,8 @@ double FemBody::cell_stable_step(const std::size_t e, const Mat &F_inverse,
   const double largest = std::min(
       trace(G), std::sqrt(norm_square(G.row[0]) + norm_square(G.row[1]) +
                           norm_square(G.row[2])));
+  // A slab of thickness h has lambda_max = 1/(2 h^2).
+  thickness = std::sqrt(0.5 / largest);
   const double omega_square =
       8. * J / material->density() *
       (std::max(0., lambda) * trace(G) + 2. * mu * largest);

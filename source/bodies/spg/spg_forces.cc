@@ -72,13 +72,6 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     batch.jacobian[k] = V / V0 * J;
     batch.half_volume[k] = 0.25 * V * (J + J_old);
 
-    // Bulk viscosity, as for hexahedra, with the particle's own size.
-    const double rate = dt > 0. ? trace(l) / dt : 0.;
-    const double h = std::cbrt(V * J);
-    batch.viscous_pressure[k] = bulk_viscosity_pressure(
-        material->density() * V0 / (V * J), c, h, rate,
-        options.bulk_viscosity_linear, options.bulk_viscosity_quadratic);
-
     // Nominal-stress factor F^-T, completed once the stress is known; its
     // size also tells how much stiffer compression has made the particle.
     const Mat F_inverse = inverse(F);
@@ -87,6 +80,13 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
         norm_square(F_inverse.row[0]) + norm_square(F_inverse.row[1]) +
         norm_square(F_inverse.row[2]) - 2.;
     double step = update_stable_step[i] / std::sqrt(std::max(1., stiffening));
+    // Bulk viscosity, as for hexahedra; a flattened particle's step tells its
+    // smallest dimension.
+    const double rate = dt > 0. ? trace(l) / dt : 0.;
+    const double h = std::min(std::cbrt(V * J), 2. * c * step);
+    batch.viscous_pressure[k] = bulk_viscosity_pressure(
+        material->density() * V0 / (V * J), c, h, rate,
+        options.bulk_viscosity_linear, options.bulk_viscosity_quadratic);
     if (dt > 0.)
     {
       const double l_norm =

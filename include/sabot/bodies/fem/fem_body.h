@@ -95,8 +95,9 @@ private:
                 const double dt);
   void scatter_forces(const std::size_t begin, const std::size_t end,
                       const double dt);
+  /** 2 / omega without viscosity [s]; @p thickness: smallest dimension [m]. */
   double cell_stable_step(const std::size_t cell, const Mat &F_inverse,
-                          const double J) const;
+                          const double J, double &thickness) const;
 
   static constexpr std::size_t batch_size = 64;
   /** Reference data of a cell, read once per step in this order. */
