@@ -42,22 +42,6 @@ std::string folder_of(const std::string &file)
   return slash == std::string::npos ? "" : file.substr(0, slash + 1);
 }
 
-/** deal.II writes names with other characters than letters and digits as
-    _xx, hexadecimal. */
-std::string demangle(const std::string &name)
-{
-  std::string plain;
-  for (std::size_t i = 0; i < name.size(); ++i)
-    if (name[i] == '_' && i + 2 < name.size())
-    {
-      plain += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    }
-    else
-      plain += name[i];
-  return plain;
-}
-
 /** A declared entry has a value, a subsection has not. */
 bool is_entry(const ordered_json &node)
 {
@@ -65,14 +49,14 @@ bool is_entry(const ordered_json &node)
          node["value"].is_string();
 }
 
-/** The tree of declared entries with plain names. */
+/** The tree of declared entries; empty subsections are objects, too. */
 ordered_json plain_tree(const ordered_json &tree)
 {
   ordered_json plain = ordered_json::object();
   if (!tree.is_object()) // an empty subsection is written as ""
     return plain;
   for (const auto &item : tree.items())
-    plain[demangle(item.key())] =
+    plain[item.key()] =
         is_entry(item.value()) ? item.value() : plain_tree(item.value());
   return plain;
 }

@@ -136,6 +136,10 @@ std::ptrdiff_t Contact::closest_face(const Group &group,
     std::array<Vec, 4> x;
     for (int a = 0; a < 4; ++a)
       x[a] = halo.position[face_slots[f][a]];
+    // With a margin, so that faces with the same closest point stay in.
+    if (closest >= 0 &&
+        is_farther(p, x, 1.001 * std::sqrt(best.distance_square)))
+      continue;
     const FaceProjection projection = project_on_face(p, x);
     // Faces that share the closest edge: the one that faces the point more
     // squarely tells the right side.

@@ -193,7 +193,7 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
           known != memories.end() && known->first == key ? known->second
                                                          : ContactMemory();
       for (const std::int64_t f : *near)
-        if (boxes[f].contains(x) &&
+        if (boxes[f].contains(x) && !is_farther(x, result.faces[f].x, reach) &&
             project_on_face(x, result.faces[f].x).distance_square <
                 reach * reach)
           candidates.push_back({key, f, memory});

@@ -59,6 +59,17 @@ struct FaceProjection
   std::array<double, 4> weight{{0., 0., 0., 0.}};
 };
 
+/** Whether all of a quadrilateral is farther from p than @p distance. */
+inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
+                       const double distance)
+{
+  const Vec centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  double radius_square = 0.;
+  for (const Vec corner : x)
+    radius_square = std::max(radius_square, norm_square(corner - centre));
+  return norm(p - centre) > distance + std::sqrt(radius_square);
+}
+
 /**
  * Closest point of a quadrilateral, taken as four triangles around its centre.
  * The sign of the gap comes from the triangle's normal; the direction is the

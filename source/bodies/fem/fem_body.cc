@@ -120,11 +120,14 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     HourglassModes &modes = hourglass_modes[e];
     for (Vec &mode : modes.mode)
       mode = Vec{};
+    geometry[e].gradient_square = Mat::zero();
     for (int a = 0; a < 8; ++a)
     {
       nodes[a] = local.at(mesh.cells[c][a]);
       const auto &B = mesh.mean_gradient[c][a];
-      geometry[e].mean_gradient[a] = vec(B[0], B[1], B[2]);
+      const Vec gradient = vec(B[0], B[1], B[2]);
+      geometry[e].mean_gradient[a] = gradient;
+      add_outer(geometry[e].gradient_square, gradient, gradient);
       nodal_state.lumped_mass[nodes[a]] +=
           0.125 * material->density() * mesh.volume[c];
       if (options.hourglass == FemOptions::Hourglass::stiffness)

@@ -130,10 +130,8 @@ double FemBody::cell_stable_step(const std::size_t e, const Mat &F_inverse,
 {
   // omega^2 <= 8 V/m (lambda tr G + 2 mu lambda_max G), G = sum b_a b_a^T with
   // the present gradients b_a = F^-T B_a (doc/theory-fem.md).
-  Mat G0 = Mat::zero();
-  for (const Vec B : geometry[e].mean_gradient)
-    add_outer(G0, B, B);
-  const Mat G = transpose(F_inverse) * G0 * F_inverse;
+  const Mat G =
+      transpose(F_inverse) * geometry[e].gradient_square * F_inverse;
   const double mu = material->shear_modulus(),
                lambda = material->bulk_modulus() - 2. / 3. * mu;
   const double largest = std::min(

@@ -151,8 +151,8 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   batch_states.resize(n_states);
   viscous_pressure.assign(n, 0.);
   internal_energy.assign(n, 0.);
-  bond_energy.assign(n, 0.);
-  bond_dissipation.assign(n, 0.);
+  bond_work.assign(n, 0.);
+  force_on_residual.assign(n, 0.);
   plastic_work.assign(n, 0.);
   update_stable_step.resize(n);
   std::fill(std::begin(batch.return_factor), std::end(batch.return_factor), 1.);

@@ -189,16 +189,19 @@ void SpgBody::residuals(const std::size_t begin, const std::size_t end)
   {
     const Mat F = gradient[i];
     const Vec xi = x[i];
-    double sum = 0.;
+    double sum = 0., old_force = 0.;
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const Vec e = x[bonds.neighbor[b]] - xi - F * bonds.rest[b];
+      old_force += dot(bonds.force[b], e);
       bonds.force[b] = e;
       sum += bonds.weight[b] * norm_square(e);
     }
-    const double twice_energy = bond_stiffness[i] * sum;
-    bond_energy[i] = 0.5 * twice_energy;
-    batch.extra_square[i - begin] = modulus * twice_energy / kernel_volume[i];
+    const std::size_t k = i - begin;
+    batch.old_force_on_residual[k] = old_force;
+    batch.trial_residual[k] = bond_stiffness[i] * sum;
+    batch.extra_square[k] =
+        modulus * batch.trial_residual[k] / kernel_volume[i];
   }
 }
 
@@ -219,11 +222,14 @@ void SpgBody::generalized_stresses(const std::size_t begin,
 
     const double theta = batch.return_factor[k];
     const double stiffness = theta * bond_stiffness[i];
+    // Work of the mean of old and new bond forces along the change of e.
+    const double trial = batch.trial_residual[k];
+    bond_work[i] += 0.5 * ((1. - theta) * batch.old_force_on_residual[k] -
+                           force_on_residual[i] + theta * trial);
+    force_on_residual[i] = theta * theta * trial;
     if (theta < 1.)
     {
-      // The residual flows with the deviator; what it loses is dissipated.
-      bond_dissipation[i] += 2. * theta * (1. - theta) * bond_energy[i];
-      bond_energy[i] *= theta * theta;
+      // The residual flows with the deviator.
       const Mat relax = (1. - theta) * transpose(batch.nominal[k]);
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
         bonds.rest[b] += relax * bonds.force[b];

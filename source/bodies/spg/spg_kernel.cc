@@ -66,17 +66,15 @@ void SpgBody::update_kernel()
       add_outer(A, dX - bonds.rest[b], bonds.weight[b] * dX);
     }
     A = A * moment_inverse[i];
-    double stored = 0.;
+    double work = 0.;
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const Vec dX = kernel_position[bonds.neighbor[b]] - Xi;
       bonds.rest[b] += A * dX;
-      stored += bonds.weight[b] * norm_square(dX - bonds.rest[b]);
+      work += dot(bonds.force[b], dX - bonds.rest[b]);
     }
-    // What changed weights and failed bonds no longer store is lost.
-    stored *= 0.5 * bond_stiffness[i];
-    bond_dissipation[i] += bond_energy[i] - stored;
-    bond_energy[i] = stored;
+    // The next step still starts with the forces of the old kernel.
+    force_on_residual[i] = work;
   }
   estimate_stable_step();
 }

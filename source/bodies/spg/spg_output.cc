@@ -13,7 +13,7 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
     ledger.kinetic.add(0.5 * nodal_state.inertia[i] *
                        norm_square(nodal_state.velocity[i]));
     ledger.internal.add(internal_energy[i]);
-    ledger.stabilization.add(bond_energy[i] + bond_dissipation[i]);
+    ledger.stabilization.add(bond_work[i]);
     ledger.plastic_work.add(plastic_work[i]);
   }
 }
@@ -28,7 +28,7 @@ Measures SpgBody::measure() const
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
   {
     internal.add(internal_energy[i]);
-    stabilization.add(bond_energy[i] + bond_dissipation[i]);
+    stabilization.add(bond_work[i]);
     bonds_now.add(bonds.n_bonds(i));
     bonds_initial.add(bonds.n_initial(i));
     n_weak.add(weak[i]);
@@ -115,8 +115,9 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("state", state_data);
   visit("viscous pressure", viscous_pressure);
   visit("internal energy", internal_energy);
-  visit("bond energy", bond_energy);
-  visit("bond dissipation", bond_dissipation);
+  visit("bond work", bond_work);
+  visit("force on residual", force_on_residual);
+  visit("bond force", bonds.force);
   visit("plastic work", plastic_work);
   visit("update stable step", update_stable_step);
   visit("bond count", bonds.count);

@@ -104,6 +104,7 @@ private:
   struct CellGeometry
   {
     Vec mean_gradient[8];
+    Mat gradient_square; // sum_a B_a (x) B_a, for the stable step
   };
   /** Per hourglass mode; stiffness control: sum_b h_b X_b, viscous control:
       the modal force of the last step, for its work. */

@@ -152,8 +152,8 @@ private:
   std::vector<double> stress_data;      // [6][n_owned]
   std::vector<double> state_data;       // [n_states][n_owned]
   std::vector<double> viscous_pressure; // of the last step [Pa]
-  std::vector<double> internal_energy, bond_energy, bond_dissipation,
-      plastic_work; // [J] per particle
+  std::vector<double> internal_energy, bond_work, plastic_work; // [J]
+  std::vector<double> force_on_residual; // sum t . e of the last step [J]
   std::vector<double> update_stable_step; // [s] at the last kernel update
   double current_stable_step = 0.;
   GlobalIndex stable_step_item = -1;
@@ -169,6 +169,8 @@ private:
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
     double extra_square[batch_size];
+    double trial_residual[batch_size]; // sum k phi |e|^2 [J]
+    double old_force_on_residual[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
     Mat nominal[batch_size];
   };
