@@ -178,11 +178,14 @@ void Contact::add_forces(const double dt)
     return;
   for (Group &group : groups)
   {
+    if (travelled < group.wake)
+      continue; // still apart
     FaceProjection projection;
     const std::ptrdiff_t f = closest_face(group, projection);
     if (f < 0 || projection.gap >= 0.)
     {
       group.memory.depth = group.memory.offset = 0.;
+      group.wake = travelled + 0.99 * std::sqrt(projection.distance_square);
       continue;
     }
     const auto &slots = face_slots[f];

@@ -12,7 +12,7 @@ __extension__ typedef __int128 Int128;
 /**
  * A sum that does not depend on the order of its terms, hence not on the
  * number of ranks: fixed point in a 128-bit integer with unit 2^-80 and range
- * +-1.4e14 (SI units). Each term is rounded once, to 8e-25.
+ * +-1.4e14 (SI units). Each term is cut once, to 8e-25.
  * A term that is not finite or out of range makes the sum not-a-number.
  */
 class ExactSum

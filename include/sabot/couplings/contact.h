@@ -53,6 +53,8 @@ private:
     std::size_t first_face, last_face;
     double stiffness, spacing;
     ContactMemory memory;
+    /** Distance the bodies may travel before the node can touch a face. */
+    double wake = 0.;
   };
   /** Part of the depth that repels; updates the memory. */
   static double effective_depth(ContactMemory &memory, const double depth,
