@@ -64,13 +64,11 @@ ExitCode print_parameters(const Arguments &arguments)
   using dealii::ParameterHandler;
   ParameterHandler prm;
   Scene::declare(prm, nullptr);
-  const auto style = arguments.format == "prm"
-                         ? ParameterHandler::Text
-                         : arguments.format == "json"
-                               ? ParameterHandler::JSON
-                               : arguments.format == "xml"
-                                     ? ParameterHandler::XML
-                                     : ParameterHandler::Description;
+  const auto style = arguments.format == "prm"    ? ParameterHandler::Text
+                     : arguments.format == "json" ? ParameterHandler::JSON
+                     : arguments.format == "xml"
+                         ? ParameterHandler::XML
+                         : ParameterHandler::Description;
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
   {
     if (arguments.format == "markdown")
@@ -89,7 +87,8 @@ int main(int argc, char **argv)
   CLI::App app("Sabot: coupled FEM-SPG simulation of impact");
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
-  const auto add_scene = [&](CLI::App *command) {
+  const auto add_scene = [&](CLI::App *command)
+  {
     command->add_option("scene", arguments.scene, "Scene file (.prm)")
         ->required();
     command

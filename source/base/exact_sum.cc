@@ -78,12 +78,11 @@ void ExactSum::reduce(std::vector<ExactSum *> sums, MPI_Comm communicator)
                 communicator);
   for (std::size_t i = 0; i < n; ++i)
   {
-    sums[i]->sum = static_cast<Int128>(parts[4 * i]) +
-                   static_cast<Int128>(parts[4 * i + 1]) *
-                       (static_cast<Int128>(1) << 48) +
-                   static_cast<Int128>(parts[4 * i + 2]) *
-                       (static_cast<Int128>(1) << 48) *
-                       (static_cast<Int128>(1) << 48);
+    sums[i]->sum =
+        static_cast<Int128>(parts[4 * i]) +
+        static_cast<Int128>(parts[4 * i + 1]) * (static_cast<Int128>(1) << 48) +
+        static_cast<Int128>(parts[4 * i + 2]) * (static_cast<Int128>(1) << 48) *
+            (static_cast<Int128>(1) << 48);
     sums[i]->n_invalid = parts[4 * i + 3];
   }
 }

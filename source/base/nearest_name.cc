@@ -33,10 +33,9 @@ std::size_t edit_distance(const std::string &a, const std::string &b)
 std::string nearest_name(const std::string &name,
                          const std::vector<std::string> &allowed)
 {
-  return *std::min_element(allowed.begin(), allowed.end(),
-                           [&](const std::string &a, const std::string &b) {
-                             return edit_distance(name, a) <
-                                    edit_distance(name, b);
-                           });
+  return *std::min_element(
+      allowed.begin(), allowed.end(),
+      [&](const std::string &a, const std::string &b)
+      { return edit_distance(name, a) < edit_distance(name, b); });
 }
 } // namespace sabot

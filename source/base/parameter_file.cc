@@ -128,8 +128,7 @@ void ParameterFile::read(const std::string &file,
   std::ifstream stream(file);
   std::stringstream content(
       std::string{std::istreambuf_iterator<char>(stream), {}});
-  if (!stream.is_open() || stream.bad() ||
-      std::filesystem::is_directory(file))
+  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
     fail(included_at, "",
          "cannot read parameter file \"" + file +
              "\"; check its name and that it is a readable text file");
@@ -180,8 +179,8 @@ void ParameterFile::read(const std::string &file,
       const std::size_t equals = rest.find('=');
       const std::string name = trim(rest.substr(0, equals));
       if (equals == std::string::npos || name.empty())
-        fail(origin, join(section), "expected \"set Name = value\", found \"" +
-                                        text + "\"");
+        fail(origin, join(section),
+             "expected \"set Name = value\", found \"" + text + "\"");
       add({section, name, trim(rest.substr(equals + 1)), origin, file});
     }
     else if (word == "include" && !rest.empty())
@@ -220,7 +219,8 @@ ParameterFile::subsections(const std::string &path) const
 {
   const std::string prefix = path + "/";
   std::vector<std::string> names;
-  const auto consider = [&](const std::string &section) {
+  const auto consider = [&](const std::string &section)
+  {
     if (section.compare(0, prefix.size(), prefix) != 0)
       return;
     const std::string name = section.substr(
@@ -290,7 +290,8 @@ void ParameterFile::parse_into(dealii::ParameterHandler &prm) const
         if (!elsewhere.empty())
           message += "; an entry of this name belongs to " + elsewhere[0];
         else if (!allowed.empty())
-          message += "; did you mean \"" + nearest_name(wanted, allowed) + "\"?";
+          message +=
+              "; did you mean \"" + nearest_name(wanted, allowed) + "\"?";
         if (!allowed.empty() && allowed.size() <= 30)
         {
           message += " Allowed here: ";
@@ -318,7 +319,8 @@ void ParameterFile::parse_into(dealii::ParameterHandler &prm) const
     if (!accepted)
     {
       std::string right = node->value("pattern_description", "");
-      const std::string selection = "[Selection ", number_in = "[Integer range ";
+      const std::string selection = "[Selection ",
+                        number_in = "[Integer range ";
       if (right.compare(0, selection.size(), selection) == 0)
         right = "one of " + right.substr(selection.size(),
                                          right.size() - selection.size() - 2);
@@ -337,7 +339,8 @@ void print_section(const ordered_json &tree, const std::string &path,
 {
   out << "\n## " << (path.empty() ? "Top level" : path)
       << "\n\n| entry | default | meaning | allowed |\n|---|---|---|---|\n";
-  const auto cell = [](std::string text) {
+  const auto cell = [](std::string text)
+  {
     for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos;
          i += 2)
       text.insert(i, "\\");

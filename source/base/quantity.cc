@@ -183,9 +183,9 @@ std::string QuantityPattern::description(const OutputStyle) const
 {
   std::string text;
   if (n_max > 1)
-    text = (n_min == n_max ? std::to_string(n_min)
-                           : std::to_string(n_min) + " to " +
-                                 std::to_string(n_max)) +
+    text = (n_min == n_max
+                ? std::to_string(n_min)
+                : std::to_string(n_min) + " to " + std::to_string(n_max)) +
            " values separated by commas, each ";
   text += dimension_name(dimension);
   std::string si, names;

@@ -14,31 +14,29 @@ void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<double> &state,
                          const std::vector<StateVariable> &variables)
 {
-  const auto stress_at = [&](const std::size_t i, const unsigned int c) {
-    return stress[c * n + items[i]];
-  };
+  const auto stress_at = [&](const std::size_t i, const unsigned int c)
+  { return stress[c * n + items[i]]; };
   add_field(fields, "stress", "Pa", items.size(), 6, stress_at);
   add_field(fields, "von Mises", "Pa", items.size(), 1,
-            [&](const std::size_t i, const unsigned int) {
+            [&](const std::size_t i, const unsigned int)
+            {
               double s[6];
               for (unsigned int c = 0; c < 6; ++c)
                 s[c] = stress_at(i, c);
               return von_mises(s);
             });
-  add_field(fields, "pressure", "Pa", items.size(), 1,
-            [&](const std::size_t i, const unsigned int) {
-              return -(stress_at(i, 0) + stress_at(i, 1) + stress_at(i, 2)) /
-                     3.;
-            });
+  add_field(
+      fields, "pressure", "Pa", items.size(), 1,
+      [&](const std::size_t i, const unsigned int)
+      { return -(stress_at(i, 0) + stress_at(i, 1) + stress_at(i, 2)) / 3.; });
   for (const StateVariable &variable : variables)
     if (!variable.is_tensor)
     {
       const double *const values =
           find_state(variables, state, n, variable.name);
       add_field(fields, variable.name, variable.unit, items.size(), 1,
-                [&](const std::size_t i, const unsigned int) {
-                  return values[items[i]];
-                });
+                [&](const std::size_t i, const unsigned int)
+                { return values[items[i]]; });
     }
 }
 

@@ -66,22 +66,20 @@ void Contact::search()
   for (const Group &group : groups)
     if (group.slot < halo.n_owned())
       memories.emplace_back(halo.key(group.slot), group.memory);
-  const SearchResult found = search_contacts(bodies, pairs, memories,
-                                             spacing + skin, communicator);
+  const SearchResult found =
+      search_contacts(bodies, pairs, memories, spacing + skin, communicator);
 
   // Keep the groups in which any node is owned here: whoever owns a node
   // computes all that acts on it, from the same numbers in the same order.
-  const auto owned = [&](const std::int32_t body, const GlobalIndex node) {
-    return bodies[body]->node_owner[node] == rank;
-  };
+  const auto owned = [&](const std::int32_t body, const GlobalIndex node)
+  { return bodies[body]->node_owner[node] == rank; };
   std::vector<NodeKey> needed;
   std::vector<std::pair<std::size_t, std::size_t>> kept;
   const auto &c = found.candidates;
   for (std::size_t first = 0, last; first < c.size(); first = last)
   {
     bool relevant = owned(c[first].node.body, c[first].node.node);
-    for (last = first; last < c.size() && c[last].node == c[first].node;
-         ++last)
+    for (last = first; last < c.size() && c[last].node == c[first].node; ++last)
     {
       const FaceNodes &face = found.faces[c[last].face];
       for (const GlobalIndex a : face.node)
@@ -143,12 +141,12 @@ std::ptrdiff_t Contact::closest_face(const Group &group,
     const FaceProjection projection = project_on_face(p, x);
     // Faces that share the closest edge: the one that faces the point more
     // squarely tells the right side.
-    const bool tie = std::abs(projection.distance_square -
-                              best.distance_square) <=
-                     1e-10 * best.distance_square;
-    if (closest < 0 || (tie ? projection.facing > best.facing
-                            : projection.distance_square <
-                                  best.distance_square))
+    const bool tie =
+        std::abs(projection.distance_square - best.distance_square) <=
+        1e-10 * best.distance_square;
+    if (closest < 0 ||
+        (tie ? projection.facing > best.facing
+             : projection.distance_square < best.distance_square))
     {
       best = projection;
       closest = f;
@@ -198,14 +196,14 @@ void Contact::add_forces(const double dt)
       face_compliance += w[a] * w[a] / halo.inertia[slots[a]];
       v -= w[a] * halo.velocity[slots[a]];
     }
-    const double depth = effective_depth(group.memory, -projection.gap,
-                                         2. * norm(v) * dt);
+    const double depth =
+        effective_depth(group.memory, -projection.gap, 2. * norm(v) * dt);
     if (depth <= 0.)
       continue;
     const double reduced_mass =
         1. / (1. / halo.inertia[group.slot] + face_compliance);
-    const double k = std::min(
-        group.stiffness, options.stability_fraction * reduced_mass / (dt * dt));
+    const double k = std::min(group.stiffness, options.stability_fraction *
+                                                   reduced_mass / (dt * dt));
     const double normal_rate = dot(v, n);
     const double damping = 2. * options.damping_fraction *
                            std::sqrt(k * reduced_mass) *
@@ -214,11 +212,10 @@ void Contact::add_forces(const double dt)
     const Vec sliding = v - normal_rate * n;
     const double speed = norm(sliding);
     // Friction cannot do more than stop the sliding within the step.
-    const double drag =
-        speed > 0. ? std::min(options.friction * pressing,
-                              0.5 * reduced_mass * speed / dt) /
-                         speed
-                   : 0.;
+    const double drag = speed > 0. ? std::min(options.friction * pressing,
+                                              0.5 * reduced_mass * speed / dt) /
+                                         speed
+                                   : 0.;
     const Vec fn = pressing * n, ft = -drag * sliding;
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;

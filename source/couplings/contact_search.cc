@@ -147,8 +147,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
         continue;
       bool near = false;
       for (const ContactPair &pair : pairs)
-        near = near || (pair.faces_of == int(b) &&
-                        box.meets(node_box[pair.nodes_of]));
+        near = near ||
+               (pair.faces_of == int(b) && box.meets(node_box[pair.nodes_of]));
       if (near)
         mine.push_back(face);
     }
@@ -156,9 +156,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
   SearchResult result;
   result.faces = gather_all(mine, communicator);
   std::sort(result.faces.begin(), result.faces.end(),
-            [](const FaceNodes &a, const FaceNodes &b) {
-              return a.body != b.body ? a.body < b.body : a.id < b.id;
-            });
+            [](const FaceNodes &a, const FaceNodes &b)
+            { return a.body != b.body ? a.body < b.body : a.id < b.id; });
 
   // A bucket of about a face keeps both lists and look-ups short.
   double face_size = reach;
@@ -178,7 +177,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
   {
     const Body &body = *bodies[pair.nodes_of];
     const NodalState &nodes = body.nodes();
-    const auto try_node = [&](const std::size_t i) {
+    const auto try_node = [&](const std::size_t i)
+    {
       const Vec x = nodes.position[i];
       if (!face_box[pair.faces_of].contains(x))
         return;
@@ -186,9 +186,9 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
       if (near == nullptr)
         return;
       const NodeKey key{pair.nodes_of, 0, nodes.global_id[i]};
-      const auto known = std::lower_bound(
-          memories.begin(), memories.end(), key,
-          [](const auto &m, const NodeKey &k) { return m.first < k; });
+      const auto known = std::lower_bound(memories.begin(), memories.end(), key,
+                                          [](const auto &m, const NodeKey &k)
+                                          { return m.first < k; });
       const ContactMemory memory =
           known != memories.end() && known->first == key ? known->second
                                                          : ContactMemory();
@@ -210,9 +210,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
   }
   result.candidates = gather_all(candidates, communicator);
   std::sort(result.candidates.begin(), result.candidates.end(),
-            [](const ContactCandidate &a, const ContactCandidate &b) {
-              return a.node == b.node ? a.face < b.face : a.node < b.node;
-            });
+            [](const ContactCandidate &a, const ContactCandidate &b)
+            { return a.node == b.node ? a.face < b.face : a.node < b.node; });
   return result;
 }
 

@@ -24,12 +24,10 @@ void NodeHalo::build(const std::vector<Body *> &bodies,
   all_bodies = bodies;
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  const auto owner = [&](const NodeKey &k) {
-    return bodies[k.body]->node_owner[k.node];
-  };
-  std::stable_partition(keys.begin(), keys.end(), [&](const NodeKey &k) {
-    return owner(k) == rank;
-  });
+  const auto owner = [&](const NodeKey &k)
+  { return bodies[k.body]->node_owner[k.node]; };
+  std::stable_partition(keys.begin(), keys.end(),
+                        [&](const NodeKey &k) { return owner(k) == rank; });
   key_of_slot = keys;
   owned_body.clear();
   owned_local.clear();
@@ -56,16 +54,17 @@ void NodeHalo::build(const std::vector<Body *> &bodies,
     const std::size_t n_before = owned_body.size();
     std::vector<NodeKey> asked;
     GhostExchange(communicator, 0, ghost_owner, ghost_key,
-                  [&](const GlobalIndex key) {
+                  [&](const GlobalIndex key)
+                  {
                     asked.push_back({std::int32_t(key % n_bodies), 0,
                                      GlobalIndex(key / n_bodies)});
                     return std::size_t(0);
                   });
     bool missing = false;
     for (const NodeKey &k : asked)
-      missing = missing || !std::binary_search(key_of_slot.begin(),
-                                               key_of_slot.begin() + n_before,
-                                               k);
+      missing =
+          missing || !std::binary_search(key_of_slot.begin(),
+                                         key_of_slot.begin() + n_before, k);
     if (missing)
     {
       std::vector<NodeKey> owned(key_of_slot.begin(),
@@ -87,14 +86,16 @@ void NodeHalo::build(const std::vector<Body *> &bodies,
     }
   }
   const std::size_t n = owned_body.size();
-  exchange = GhostExchange(
-      communicator, n, ghost_owner, ghost_key, [&](const GlobalIndex key) {
-        const NodeKey k{std::int32_t(key % n_bodies), 0,
-                        GlobalIndex(key / n_bodies)};
-        return std::lower_bound(key_of_slot.begin(), key_of_slot.begin() + n,
-                                k) -
-               key_of_slot.begin();
-      });
+  exchange =
+      GhostExchange(communicator, n, ghost_owner, ghost_key,
+                    [&](const GlobalIndex key)
+                    {
+                      const NodeKey k{std::int32_t(key % n_bodies), 0,
+                                      GlobalIndex(key / n_bodies)};
+                      return std::lower_bound(key_of_slot.begin(),
+                                              key_of_slot.begin() + n, k) -
+                             key_of_slot.begin();
+                    });
   position.resize(size());
   velocity.resize(size());
   inertia.resize(size());

@@ -67,9 +67,11 @@ void SelfContact::search()
 
   const double reach = options.contact_distance * largest_spacing + skin;
   std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets;
-  const auto key = [&](const Vec x, const int dx, const int dy, const int dz) {
+  const auto key = [&](const Vec x, const int dx, const int dy, const int dz)
+  {
     constexpr std::int64_t mask = (1 << 21) - 1;
-    const std::int64_t i = std::floor(x[0] / reach), j = std::floor(x[1] / reach),
+    const std::int64_t i = std::floor(x[0] / reach),
+                       j = std::floor(x[1] / reach),
                        k = std::floor(x[2] / reach);
     return ((i + dx) & mask) << 42 | ((j + dy) & mask) << 21 |
            ((k + dz) & mask);
@@ -98,8 +100,7 @@ void SelfContact::search()
             // A pair owned here twice is kept once.
             if (b < a && bodies[b.body]->node_owner[b.node] == rank)
               continue;
-            if (a.body == b.body &&
-                bodies[a.body]->are_bonded(a_local, b.node))
+            if (a.body == b.body && bodies[a.body]->are_bonded(a_local, b.node))
               continue;
             const double h = std::min(views[a.body].spacing,
                                       views[b.body].spacing),
@@ -114,9 +115,8 @@ void SelfContact::search()
           }
         }
   }
-  const auto before = [](const Pair &p, const Pair &q) {
-    return p.first == q.first ? p.second < q.second : p.first < q.first;
-  };
+  const auto before = [](const Pair &p, const Pair &q)
+  { return p.first == q.first ? p.second < q.second : p.first < q.first; };
   std::sort(found.begin(), found.end(), before);
   std::vector<NodeKey> needed;
   for (Pair &pair : found)
@@ -158,21 +158,19 @@ void SelfContact::add_forces(const double dt)
     const Vec v = halo.velocity[b] - halo.velocity[a];
     const double reduced_mass =
         1. / (1. / halo.inertia[a] + 1. / halo.inertia[b]);
-    const double k =
-        std::min(pair.stiffness,
-                 options.stability_fraction * reduced_mass / (dt * dt));
+    const double k = std::min(pair.stiffness, options.stability_fraction *
+                                                  reduced_mass / (dt * dt));
     const double rate = dot(v, n);
-    const double pressing = k * (pair.distance - distance) +
-                            2. * options.damping_fraction *
-                                std::sqrt(k * reduced_mass) *
-                                std::max(0., -rate);
+    const double pressing =
+        k * (pair.distance - distance) + 2. * options.damping_fraction *
+                                             std::sqrt(k * reduced_mass) *
+                                             std::max(0., -rate);
     const Vec sliding = v - rate * n;
     const double speed = norm(sliding);
-    const double drag =
-        speed > 0. ? std::min(options.friction * pressing,
-                              0.5 * reduced_mass * speed / dt) /
-                         speed
-                   : 0.;
+    const double drag = speed > 0. ? std::min(options.friction * pressing,
+                                              0.5 * reduced_mass * speed / dt) /
+                                         speed
+                                   : 0.;
     normal_force[a] -= pressing * n;
     normal_force[b] += pressing * n;
     friction_force[a] += drag * sliding;

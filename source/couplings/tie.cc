@@ -44,8 +44,7 @@ double project(const FaceRecord &face, const Vec x, std::array<double, 4> &w)
                            (1 + s) * (face.x[2] - face.x[1]));
     const double a = dot(ds, ds), b = dot(ds, dt), c = dot(dt, dt),
                  f = dot(ds, r), g = dot(dt, r), det = a * c - b * b;
-    const double step_s = (c * f - b * g) / det,
-                 step_t = (a * g - b * f) / det;
+    const double step_s = (c * f - b * g) / det, step_t = (a * g - b * f) / det;
     s += step_s;
     t += step_t;
     if (std::abs(step_s) + std::abs(step_t) < 1e-14)
@@ -104,7 +103,8 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
   }
   std::vector<FaceRecord> faces = gather_all(my_faces, communicator);
   std::sort(faces.begin(), faces.end(),
-            [](const FaceRecord &a, const FaceRecord &b) { return a.id < b.id; });
+            [](const FaceRecord &a, const FaceRecord &b)
+            { return a.id < b.id; });
 
   const NodalState &followers = bodies[follower]->nodes();
   const ContactSurface open = bodies[follower]->contact_surface();
@@ -146,9 +146,8 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
   }
   std::vector<Constraint> all = gather_all(mine, communicator);
   std::sort(all.begin(), all.end(),
-            [](const Constraint &a, const Constraint &b) {
-              return a.follower < b.follower;
-            });
+            [](const Constraint &a, const Constraint &b)
+            { return a.follower < b.follower; });
   return all;
 }
 
@@ -167,7 +166,8 @@ void Tie::initialize()
 
   Body &following = *bodies[follower], &leading = *bodies[leader];
   NodalState &followers = following.nodes(), &leads = leading.nodes();
-  const auto local = [](const NodalState &nodes, const GlobalIndex id) {
+  const auto local = [](const NodalState &nodes, const GlobalIndex id)
+  {
     return std::lower_bound(nodes.global_id.begin(),
                             nodes.global_id.begin() + nodes.n_owned, id) -
            nodes.global_id.begin();
@@ -189,8 +189,8 @@ void Tie::initialize()
       owned_followers.push_back(i);
       for (int a = 0; a < 4; ++a)
         if (c.weight[a] > 0.)
-          motion.push_back({i, leaders.slot({leader, 0, c.leader[a]}),
-                            c.weight[a]});
+          motion.push_back(
+              {i, leaders.slot({leader, 0, c.leader[a]}), c.weight[a]});
     }
 
   // Forces: followers of the leaders that are owned here.
@@ -216,11 +216,12 @@ void Tie::initialize()
           remote.push_back(c.follower);
           remote_owner.push_back(owner);
         }
-        forces.push_back({std::size_t(local(leads, c.leader[a])), slot,
-                          c.weight[a]});
+        forces.push_back(
+            {std::size_t(local(leads, c.leader[a])), slot, c.weight[a]});
       }
   }
-  const auto find = [&](const GlobalIndex key) {
+  const auto find = [&](const GlobalIndex key)
+  {
     return std::lower_bound(owned_followers.begin(), owned_followers.end(),
                             local(followers, key)) -
            owned_followers.begin();
@@ -247,8 +248,7 @@ void Tie::impose_kinematics()
   for (const std::size_t i : owned_followers)
     followers.velocity[i] = Vec{};
   for (const Term &term : motion)
-    followers.velocity[term.local] +=
-        term.weight * leaders.velocity[term.slot];
+    followers.velocity[term.local] += term.weight * leaders.velocity[term.slot];
 }
 
 void Tie::add_forces(const double)

@@ -22,9 +22,8 @@ curve_order(const std::vector<dealii::Point<3>> &points)
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](const std::size_t a, const std::size_t b) {
-              return code[a] != code[b] ? code[a] < code[b] : a < b;
-            });
+            [&](const std::size_t a, const std::size_t b)
+            { return code[a] != code[b] ? code[a] < code[b] : a < b; });
   return order;
 }
 } // namespace
@@ -35,9 +34,8 @@ HexMesh extract_mesh(const dealii::Triangulation<3> &mesh)
   dealii::DoFHandler<3> dofs(mesh);
   dofs.distribute_dofs(fe);
   const dealii::QGauss<3> quadrature(2);
-  dealii::FEValues<3> values(fe, quadrature,
-                             dealii::update_gradients |
-                                 dealii::update_JxW_values);
+  dealii::FEValues<3> values(
+      fe, quadrature, dealii::update_gradients | dealii::update_JxW_values);
 
   // deal.II's lexicographic corners in VTK's order.
   constexpr unsigned int corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
@@ -81,8 +79,7 @@ HexMesh extract_mesh(const dealii::Triangulation<3> &mesh)
       for (unsigned int d = 0; d < 3; ++d)
       {
         for (unsigned int q = 0; q < quadrature.size(); ++q)
-          gradient[a][d] +=
-              values.shape_grad(corner[a], q)[d] * values.JxW(q);
+          gradient[a][d] += values.shape_grad(corner[a], q)[d] * values.JxW(q);
         gradient[a][d] /= volume;
       }
     }

@@ -50,8 +50,7 @@ std::vector<double> graded_planes(const double low, const double high,
   const double tolerance = 1e-9 * (high - low);
   if (inner_low - low > tolerance)
   {
-    const auto sizes =
-        growing_sizes(inner_low - low, fine, coarsest, growth);
+    const auto sizes = growing_sizes(inner_low - low, fine, coarsest, growth);
     double x = inner_low;
     for (const double size : sizes)
       planes.push_back(x -= size);
@@ -159,16 +158,16 @@ HexMesh make_cylinder(const double radius, const double length,
   std::vector<dealii::Point<2>> points;
   std::vector<dealii::CellData<2>> cells;
 
-  const auto core_point = [&](const double s, const double t) {
+  const auto core_point = [&](const double s, const double t)
+  {
     // [-1,1]^2 to a square with bulged edges.
     const double corner = 0.55 / std::sqrt(2.);
     const double x = corner * s * (1. + 0.12 * (1. - t * t)),
                  y = corner * t * (1. + 0.12 * (1. - s * s));
     return dealii::Point<2>(x, y);
   };
-  const auto core_index = [&](const unsigned int i, const unsigned int j) {
-    return i + (n + 1) * j;
-  };
+  const auto core_index = [&](const unsigned int i, const unsigned int j)
+  { return i + (n + 1) * j; };
   for (unsigned int j = 0; j <= n; ++j)
     for (unsigned int i = 0; i <= n; ++i)
       points.push_back(core_point(2. * i / n - 1., 2. * j / n - 1.));
@@ -231,13 +230,14 @@ HexMesh make_cylinder(const double radius, const double length,
     if (face->at_boundary())
     {
       const double z = face->center()[2];
-      face->set_boundary_id(z < 1e-9 * length               ? 0
+      face->set_boundary_id(z < 1e-9 * length          ? 0
                             : z > length * (1. - 1e-9) ? 1
                                                        : 2);
     }
   // A cyclic permutation of the axes keeps cells right-handed.
   dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p) {
+      [&](const dealii::Point<3> &p)
+      {
         const double local[3] = {p[0], p[1], p[2] - 0.5 * length};
         dealii::Point<3> q;
         for (unsigned int d = 0; d < 3; ++d)

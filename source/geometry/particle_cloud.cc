@@ -40,9 +40,8 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](const std::size_t a, const std::size_t b) {
-              return curve[a] != curve[b] ? curve[a] < curve[b] : a < b;
-            });
+            [&](const std::size_t a, const std::size_t b)
+            { return curve[a] != curve[b] ? curve[a] < curve[b] : a < b; });
 
   for (const std::size_t p : order)
   {

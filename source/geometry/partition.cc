@@ -52,9 +52,9 @@ void coordinates(void *data, int, int, int n, ZOLTAN_ID_PTR global,
 }
 } // namespace
 
-std::vector<int>
-partition(const std::vector<std::array<double, 3>> &points,
-          const std::vector<float> &weights, MPI_Comm communicator)
+std::vector<int> partition(const std::vector<std::array<double, 3>> &points,
+                           const std::vector<float> &weights,
+                           MPI_Comm communicator)
 {
   int n_ranks, rank;
   MPI_Comm_size(communicator, &n_ranks);

@@ -135,7 +135,8 @@ StepProposal CentralDifference::propose(const bool interrupted) const
     int source;
   } best{std::numeric_limits<double>::max(), -1, 0};
   int source = 0;
-  const auto consider = [&](const StableStep &step) {
+  const auto consider = [&](const StableStep &step)
+  {
     if (step.dt < best.dt)
       best = {step.dt, step.item, source};
     ++source;
@@ -149,8 +150,9 @@ StepProposal CentralDifference::propose(const bool interrupted) const
   MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_DOUBLE, MPI_MIN, communicator);
   // Of equal proposals the lowest body and item is named, whatever the ranks.
   constexpr GlobalIndex factor = GlobalIndex(1) << 48;
-  GlobalIndex who = best.dt == values[0] ? best.source * factor + best.item
-                                         : std::numeric_limits<GlobalIndex>::max();
+  GlobalIndex who = best.dt == values[0]
+                        ? best.source * factor + best.item
+                        : std::numeric_limits<GlobalIndex>::max();
   MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT64_T, MPI_MIN, communicator);
   const std::size_t index = who / factor;
   StepProposal proposal{values[0], "", values[1] < 0.};

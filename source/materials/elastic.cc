@@ -13,12 +13,11 @@ void Elastic::update(const MaterialBatch &batch) const
 
 namespace
 {
-const RegisterMaterial
-    registered({"Elastic", "hypoelastic, Jaumann rate, pressure -K ln J.",
-                [](dealii::ParameterHandler &) {},
-                [](dealii::ParameterHandler &prm, const std::string &path) {
-                  return std::make_unique<Elastic>(
-                      ElasticConstants::parse(prm, path));
-                }});
+const RegisterMaterial registered(
+    {"Elastic", "hypoelastic, Jaumann rate, pressure -K ln J.",
+     [](dealii::ParameterHandler &) {},
+     [](dealii::ParameterHandler &prm, const std::string &path) {
+       return std::make_unique<Elastic>(ElasticConstants::parse(prm, path));
+     }});
 } // namespace
 } // namespace sabot

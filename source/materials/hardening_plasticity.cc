@@ -25,16 +25,15 @@ void HardeningPlasticity::update(const MaterialBatch &b) const
   double *const eps = b.state(0);
   for (std::size_t k = 0; k < b.n; ++k)
   {
-    const double mean =
-        (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
+    const double mean = (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
     double xi[6]; // deviator relative to the back stress
     for (int c = 0; c < 6; ++c)
       xi[c] = b.stress[c][k] - (c < 3 ? mean : 0.) -
               (kinematic ? b.state(1 + c)[k] : 0.);
-    const double q = std::sqrt(
-        1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
-               2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
-        b.extra_square[k]);
+    const double q =
+        std::sqrt(1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
+                         2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
+                  b.extra_square[k]);
     const double excess = q - parameters.yield_stress - isotropic * eps[k];
     const double increment = excess > 0. ? excess / (3. * G + H) : 0.;
     const double scale = increment > 0. ? 1.5 * increment / q : 0.;
@@ -58,7 +57,8 @@ namespace
 const RegisterMaterial registered(
     {"Hardening plasticity",
      "J2 plasticity with linear isotropic, kinematic or mixed hardening.",
-     [](dealii::ParameterHandler &prm) {
+     [](dealii::ParameterHandler &prm)
+     {
        prm.declare_entry("Yield stress", "0",
                          QuantityPattern(Dimension::pressure, 0., 1e12),
                          "Initial yield stress.");
@@ -69,7 +69,8 @@ const RegisterMaterial registered(
                          QuantityPattern(Dimension::none, 0., 1.),
                          "1: isotropic hardening, 0: kinematic.");
      },
-     [](dealii::ParameterHandler &prm, const std::string &path) {
+     [](dealii::ParameterHandler &prm, const std::string &path)
+     {
        const ElasticConstants elastic = ElasticConstants::parse(prm, path);
        prm.enter_subsection("Hardening plasticity");
        HardeningParameters p;

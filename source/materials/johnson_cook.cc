@@ -33,8 +33,8 @@ double JohnsonCook::flow_stress(const double eps, const double rate,
   const double relative = rate / p.reference_strain_rate;
   const double fast = relative > 1. ? 1. + p.C * std::log(relative) : 1.;
   const double fast_slope = relative > 1. ? p.C / (rate * dt) : 0.;
-  slope = thermal * (p.n * hardening / safe * fast +
-                     (p.A + hardening) * fast_slope);
+  slope = thermal *
+          (p.n * hardening / safe * fast + (p.A + hardening) * fast_slope);
   return thermal * (p.A + hardening) * fast;
 }
 
@@ -45,8 +45,8 @@ double JohnsonCook::plastic_increment(const double q, const double eps,
   // Root of q - 3 G d - sigma_y(eps + d, d/dt), decreasing in d: Newton inside
   // a bracket that always holds the root.
   double low = 0., high = q / (3. * G), slope;
-  double d = std::min(high, (q - flow_stress(eps, 0., thermal, dt, slope)) /
-                                (3. * G));
+  double d =
+      std::min(high, (q - flow_stress(eps, 0., thermal, dt, slope)) / (3. * G));
   for (int iteration = 0; iteration < 60; ++iteration)
   {
     const double f =
@@ -68,8 +68,7 @@ void JohnsonCook::update(const MaterialBatch &b) const
       parameters.taylor_quinney / (density() * parameters.specific_heat);
   for (std::size_t k = 0; k < b.n; ++k)
   {
-    const double mean =
-        (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
+    const double mean = (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
     const double x = b.stress[0][k] - mean, y = b.stress[1][k] - mean,
                  z = b.stress[2][k] - mean, xy = b.stress[3][k],
                  yz = b.stress[4][k], xz = b.stress[5][k];
@@ -106,13 +105,12 @@ namespace
 const RegisterMaterial registered(
     {"Johnson-Cook",
      "strain, strain-rate and thermal softening with adiabatic heating.",
-     [](dealii::ParameterHandler &prm) {
-       const auto entry = [&](const std::string &name,
-                              const std::string &value, const Dimension d,
-                              const double low, const double high,
-                              const std::string &text) {
-         prm.declare_entry(name, value, QuantityPattern(d, low, high), text);
-       };
+     [](dealii::ParameterHandler &prm)
+     {
+       const auto entry = [&](const std::string &name, const std::string &value,
+                              const Dimension d, const double low,
+                              const double high, const std::string &text)
+       { prm.declare_entry(name, value, QuantityPattern(d, low, high), text); };
        entry("Initial yield stress", "0", Dimension::pressure, 0., 1e12, "A.");
        entry("Hardening modulus", "0", Dimension::pressure, 0., 1e12, "B.");
        entry("Hardening exponent", "1", Dimension::none, 0.001, 5., "n.");
@@ -133,7 +131,8 @@ const RegisterMaterial registered(
              "Part of the plastic work that becomes heat; 0 switches adiabatic "
              "heating off.");
      },
-     [](dealii::ParameterHandler &prm, const std::string &path) {
+     [](dealii::ParameterHandler &prm, const std::string &path)
+     {
        const ElasticConstants elastic = ElasticConstants::parse(prm, path);
        prm.enter_subsection("Johnson-Cook");
        JohnsonCookParameters p;

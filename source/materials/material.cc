@@ -94,12 +94,12 @@ ElasticConstants ElasticConstants::parse(const dealii::ParameterHandler &prm,
   if (c.young_modulus <= 0.)
     throw InputError(path + "/Young's modulus",
                      "must be set to a positive modulus, for example 70 GPa");
-  const double speed = std::sqrt(
-      (c.bulk_modulus() + 4. / 3. * c.shear_modulus()) / c.density);
+  const double speed =
+      std::sqrt((c.bulk_modulus() + 4. / 3. * c.shear_modulus()) / c.density);
   if (speed < 100. || speed > 20000.)
     throw InputError(path + "/Density",
-                     "density " + prm.get("Density") +
-                         " and Young's modulus " + prm.get("Young's modulus") +
+                     "density " + prm.get("Density") + " and Young's modulus " +
+                         prm.get("Young's modulus") +
                          " give a sound speed of " + std::to_string(speed) +
                          " m/s; expected 100 to 20000 m/s: check the units of "
                          "both (a number alone is in kg/m^3 or Pa)");

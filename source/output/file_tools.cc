@@ -30,18 +30,21 @@ void write_atomically(const std::string &file,
 
 void write_text(const std::string &file, const std::string &text)
 {
-  write_atomically(file, [&](const std::string &temporary) {
-    errno = 0;
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream)
-    {
-      const std::string reason =
-          errno != 0 ? std::strerror(errno) : "the write failed";
-      std::remove(temporary.c_str());
-      throw IOError("cannot write \"" + file + "\": " + reason);
-    }
-  });
+  write_atomically(
+      file,
+      [&](const std::string &temporary)
+      {
+        errno = 0;
+        std::ofstream stream(temporary, std::ios::binary);
+        stream << text;
+        stream.close();
+        if (!stream)
+        {
+          const std::string reason =
+              errno != 0 ? std::strerror(errno) : "the write failed";
+          std::remove(temporary.c_str());
+          throw IOError("cannot write \"" + file + "\": " + reason);
+        }
+      });
 }
 } // namespace sabot

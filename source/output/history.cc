@@ -50,8 +50,7 @@ private:
 
 hid_t row_type(const std::vector<std::string> &columns)
 {
-  const hid_t type =
-      H5Tcreate(H5T_COMPOUND, columns.size() * sizeof(double));
+  const hid_t type = H5Tcreate(H5T_COMPOUND, columns.size() * sizeof(double));
   for (std::size_t c = 0; c < columns.size(); ++c)
     H5Tinsert(type, columns[c].c_str(), c * sizeof(double), H5T_NATIVE_DOUBLE);
   return type;
@@ -73,39 +72,42 @@ void History::append(const std::string &name, const Measures &row)
 void History::write(const std::string &file) const
 {
   const Quiet quiet;
-  write_atomically(file, [&](const std::string &temporary) {
-    errno = 0;
-    bool good = true;
-    {
-      const Handle h5(
-          H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-          H5Fclose);
-      good = h5 >= 0;
-      for (const auto &[name, table] : tables)
+  write_atomically(
+      file,
+      [&](const std::string &temporary)
       {
-        if (!good || table.columns.empty())
-          continue;
-        const hsize_t n = table.n_rows();
-        const Handle type(row_type(table.columns), H5Tclose);
-        const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
-        const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-        H5Pset_obj_track_times(properties, false);
-        const Handle set(H5Dcreate2(h5, name.c_str(), type, space, H5P_DEFAULT,
-                                    properties, H5P_DEFAULT),
-                         H5Dclose);
-        good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                    table.values.data()) >= 0;
-      }
-      good = good && H5Fflush(h5, H5F_SCOPE_GLOBAL) >= 0;
-    }
-    if (!good)
-    {
-      const std::string reason =
-          errno != 0 ? std::strerror(errno) : "the write failed";
-      std::remove(temporary.c_str());
-      throw IOError("cannot write \"" + file + "\": " + reason);
-    }
-  });
+        errno = 0;
+        bool good = true;
+        {
+          const Handle h5(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
+                                    H5P_DEFAULT, H5P_DEFAULT),
+                          H5Fclose);
+          good = h5 >= 0;
+          for (const auto &[name, table] : tables)
+          {
+            if (!good || table.columns.empty())
+              continue;
+            const hsize_t n = table.n_rows();
+            const Handle type(row_type(table.columns), H5Tclose);
+            const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+            const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+            H5Pset_obj_track_times(properties, false);
+            const Handle set(H5Dcreate2(h5, name.c_str(), type, space,
+                                        H5P_DEFAULT, properties, H5P_DEFAULT),
+                             H5Dclose);
+            good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL,
+                                        H5P_DEFAULT, table.values.data()) >= 0;
+          }
+          good = good && H5Fflush(h5, H5F_SCOPE_GLOBAL) >= 0;
+        }
+        if (!good)
+        {
+          const std::string reason =
+              errno != 0 ? std::strerror(errno) : "the write failed";
+          std::remove(temporary.c_str());
+          throw IOError("cannot write \"" + file + "\": " + reason);
+        }
+      });
 }
 
 void History::read(const std::string &file)
@@ -132,8 +134,7 @@ void History::read(const std::string &file)
       table.columns.push_back(column);
       H5free_memory(column);
     }
-    table.values.resize(n_columns *
-                        H5Sget_simple_extent_npoints(space));
+    table.values.resize(n_columns * H5Sget_simple_extent_npoints(space));
     const Handle memory(row_type(table.columns), H5Tclose);
     if (H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                 table.values.data()) < 0)

@@ -43,7 +43,10 @@ void Log::line(const std::string &text)
     file << text << std::endl;
 }
 
-void Log::warning(const std::string &text) { line("warning: " + text); }
+void Log::warning(const std::string &text)
+{
+  line("warning: " + text);
+}
 
 void Log::progress(const std::string &text, const bool last)
 {

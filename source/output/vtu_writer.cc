@@ -126,28 +126,30 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
   add_fields(mesh.cell_fields, grid->GetCellData());
 
   std::string problem;
-  const std::string file =
-      folder + "/fields/" + piece_name(body, frame, rank);
+  const std::string file = folder + "/fields/" + piece_name(body, frame, rank);
   try
   {
-    write_atomically(file, [&](const std::string &temporary) {
-      errno = 0;
-      vtkNew<vtkXMLUnstructuredGridWriter> writer;
-      writer->SetFileName(temporary.c_str());
-      writer->SetInputData(grid);
-      writer->SetCompressorTypeToZLib();
-      writer->SetCompressionLevel(1);
-      writer->SetDataModeToAppended();
-      writer->EncodeAppendedDataOff();
-      // The name's ending is not .vtu yet; VTK would print a warning.
-      if (writer->Write() != 1 || writer->GetErrorCode() != 0)
-      {
-        const std::string reason =
-            errno != 0 ? std::strerror(errno) : "the write failed";
-        std::remove(temporary.c_str());
-        throw IOError("cannot write \"" + file + "\": " + reason);
-      }
-    });
+    write_atomically(
+        file,
+        [&](const std::string &temporary)
+        {
+          errno = 0;
+          vtkNew<vtkXMLUnstructuredGridWriter> writer;
+          writer->SetFileName(temporary.c_str());
+          writer->SetInputData(grid);
+          writer->SetCompressorTypeToZLib();
+          writer->SetCompressionLevel(1);
+          writer->SetDataModeToAppended();
+          writer->EncodeAppendedDataOff();
+          // The name's ending is not .vtu yet; VTK would print a warning.
+          if (writer->Write() != 1 || writer->GetErrorCode() != 0)
+          {
+            const std::string reason =
+                errno != 0 ? std::strerror(errno) : "the write failed";
+            std::remove(temporary.c_str());
+            throw IOError("cannot write \"" + file + "\": " + reason);
+          }
+        });
     if (n_ranks > 1 && rank == 0)
       write_collection(body, mesh, frame);
   }
@@ -166,8 +168,9 @@ void VtuWriter::write_collection(const std::string &body,
   xml << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" "
          "version=\"0.1\" byte_order=\"LittleEndian\">\n"
          "<PUnstructuredGrid GhostLevel=\"0\">\n";
-  const auto list = [&](const char *section,
-                        const std::vector<OutputField> &fields) {
+  const auto list =
+      [&](const char *section, const std::vector<OutputField> &fields)
+  {
     xml << "<" << section << ">\n";
     for (const OutputField &field : fields)
     {

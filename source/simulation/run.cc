@@ -15,7 +15,10 @@ namespace sabot
 namespace
 {
 volatile std::sig_atomic_t asked_to_stop = 0;
-void note_signal(int) { asked_to_stop = 1; }
+void note_signal(int)
+{
+  asked_to_stop = 1;
+}
 
 std::string format(const char *pattern, const double value)
 {
@@ -28,7 +31,10 @@ std::string format(const char *pattern, const double value)
 constexpr double checks_per_run = 200.;
 } // namespace
 
-std::string version() { return SABOT_VERSION; }
+std::string version()
+{
+  return SABOT_VERSION;
+}
 
 Run::Run(Scene &scene, const std::string &folder, const bool quiet,
          MPI_Comm communicator)
@@ -64,9 +70,8 @@ ExitCode Run::execute()
     reason = e.what();
     code = ExitCode::physics_failed;
     log.line("");
-    log.line("The run went wrong at time " +
-             format("%.6e", integrator.time) + " s, step " +
-             std::to_string(step) + ": " + reason);
+    log.line("The run went wrong at time " + format("%.6e", integrator.time) +
+             " s, step " + std::to_string(step) + ": " + reason);
   }
   try
   {
@@ -123,8 +128,8 @@ void Run::start()
     for (const Measure &m : coupling->measure())
     {
       if (m.name == "tied nodes")
-        log.line("  tie " + coupling->name + ": " +
-                 format("%.0f", m.value) + " nodes");
+        log.line("  tie " + coupling->name + ": " + format("%.0f", m.value) +
+                 " nodes");
       if (m.name == "initial penetration over spacing" && m.value > 0.)
         log.warning("contact " + coupling->name +
                     ": nodes start inside the other body by up to " +
@@ -190,8 +195,8 @@ void Run::loop()
     dt = next_step(proposal);
     limiter = proposal.limiter;
     if (!(dt > 0.))
-      throw PhysicsError("no stable step exists any more (limiter: " +
-                         limiter + ")");
+      throw PhysicsError("no stable step exists any more (limiter: " + limiter +
+                         ")");
     if (proposal.dt < 1e-4 * smallest_step && step > 10)
       throw PhysicsError("the stable step collapsed from " +
                          format("%.3e", smallest_step) + " s to " +
@@ -208,8 +213,7 @@ void Run::loop()
     const bool recorded = check || record_due();
     if (recorded)
     {
-      next_check =
-          integrator.time + scene.settings.end_time / checks_per_run;
+      next_check = integrator.time + scene.settings.end_time / checks_per_run;
       const auto timer = timers.scope("balance");
       record();
     }
@@ -232,8 +236,8 @@ Run::Balance Run::balance_energy()
                     &e.contact, &e.friction, &e.external, &e.plastic_work},
                    communicator);
   ExactSum total = e.kinetic;
-  for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
-                               &e.contact, &e.friction})
+  for (const ExactSum *part :
+       {&e.internal, &e.stabilization, &e.hourglass, &e.contact, &e.friction})
     total.add(*part);
   total.subtract(e.external);
   Balance balance;
@@ -310,14 +314,16 @@ void Run::check_energy()
   const Measure *largest = nullptr;
   for (const Measure &m : ledger)
     if (m.unit == "J" && m.name != "total" && m.name != "plastic work" &&
-        (largest == nullptr || !(std::abs(m.value) <= std::abs(largest->value))))
+        (largest == nullptr ||
+         !(std::abs(m.value) <= std::abs(largest->value))))
       largest = &m;
-  throw PhysicsError(
-      "the energy balance is off by " + format("%.3g", 100. * last_residual) +
-      " %, more than the limit of " +
-      format("%.3g", 100. * scene.settings.energy_limit) +
-      " %; largest part: " + largest->name + " " +
-      format("%.6g", largest->value) + " J; the step was limited by " + limiter);
+  throw PhysicsError("the energy balance is off by " +
+                     format("%.3g", 100. * last_residual) +
+                     " %, more than the limit of " +
+                     format("%.3g", 100. * scene.settings.energy_limit) +
+                     " %; largest part: " + largest->name + " " +
+                     format("%.6g", largest->value) +
+                     " J; the step was limited by " + limiter);
 }
 
 Measures Run::quantities() const
@@ -326,7 +332,8 @@ Measures Run::quantities() const
   for (const QuantityOfInterest &q : scene.quantities)
   {
     const Measures measures = scene.bodies[q.body]->measure();
-    const auto find = [&](const std::string &name) {
+    const auto find = [&](const std::string &name)
+    {
       for (const Measure &m : measures)
         if (m.name == name)
           return m.value;
@@ -336,7 +343,8 @@ Measures Run::quantities() const
     for (int d = 1; d < 3; ++d)
       if (std::abs(q.direction[d]) > std::abs(q.direction[axis]))
         axis = d;
-    const auto extent = [&](const int d) {
+    const auto extent = [&](const int d)
+    {
       const std::string letter(1, "xyz"[d]);
       return find("maximum " + letter) - find("minimum " + letter);
     };
@@ -349,9 +357,9 @@ Measures Run::quantities() const
     else if (q.type == Type::length)
       values.push_back({q.name, "m", extent(axis)});
     else if (q.type == Type::radius)
-      values.push_back({q.name, "m",
-                        0.25 * (extent((axis + 1) % 3) +
-                                extent((axis + 2) % 3))});
+      values.push_back(
+          {q.name, "m",
+           0.25 * (extent((axis + 1) % 3) + extent((axis + 2) % 3))});
     else
     {
       const std::string letter(1, "xyz"[axis]);

@@ -77,10 +77,10 @@ ordered_json Run::timer_results() const
     int n_bodies = 0;
     for (const auto &body : scene.bodies)
       n_bodies += name == body->step_timer_name();
-    t["ns_per_item"] =
-        items > 0. ? ordered_json(1e9 * phase.seconds * n_ranks * n_bodies /
-                                  (items * phase.calls))
-                   : ordered_json(nullptr);
+    t["ns_per_item"] = items > 0.
+                           ? ordered_json(1e9 * phase.seconds * n_ranks *
+                                          n_bodies / (items * phase.calls))
+                           : ordered_json(nullptr);
     result[name] = t;
   }
   return result;
@@ -107,9 +107,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
   r["cpu_seconds"] = sums[0];
   r["peak_memory_bytes"] = static_cast<std::int64_t>(sums[1]);
   r["energy_residual_max"] = number(largest_residual);
-  r["momentum_residual_max"] = scene.is_free
-                                   ? number(largest_momentum_residual)
-                                   : ordered_json(nullptr);
+  r["momentum_residual_max"] =
+      scene.is_free ? number(largest_momentum_residual) : ordered_json(nullptr);
   r["stable_step_min"] =
       step > 0 ? number(smallest_step) : ordered_json(nullptr);
   r["bodies"] = body_results();

@@ -98,7 +98,8 @@ void Scene::read_settings()
   settings.largest_step = get_quantity(prm, "Largest step");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
   if (split_names(prm.get("List of bodies")).empty())
-    throw InputError("List of bodies", "the scene has no bodies; list their names");
+    throw InputError("List of bodies",
+                     "the scene has no bodies; list their names");
 }
 
 void Scene::build_materials()
@@ -181,8 +182,10 @@ void Scene::build_bodies()
       const std::string axis = prm.get("Axis");
       mesh = make_cylinder(get_quantity(prm, "Radius"),
                            get_quantity(prm, "Length"),
-                           axis == "x" ? 0 : axis == "y" ? 1 : 2, centre,
-                           cell_size);
+                           axis == "x"   ? 0
+                           : axis == "y" ? 1
+                                         : 2,
+                           centre, cell_size);
     }
     else
     {

@@ -74,7 +74,8 @@ void Scene::build_couplings()
   const std::vector<Body *> pointers = body_pointers();
   std::set<std::pair<int, int>> tied;
   std::vector<std::unique_ptr<Coupling>> ties;
-  const std::vector<std::string> names = split_names(prm.get("List of couplings"));
+  const std::vector<std::string> names =
+      split_names(prm.get("List of couplings"));
   for (const bool ties_now : {true, false})
     for (const std::string &name : names)
     {
@@ -88,8 +89,7 @@ void Scene::build_couplings()
             body_index(path + "/Follower", prm.get("Follower"));
         const int leader = body_index(path + "/Leader", prm.get("Leader"));
         if (follower == leader)
-          throw InputError(path + "/Leader",
-                           "a body cannot be tied to itself");
+          throw InputError(path + "/Leader", "a body cannot be tied to itself");
         if (bodies[leader]->item_name() != "cells")
           throw InputError(path + "/Leader", "the leader must be a FEM body");
         tied.insert({follower, leader});
@@ -124,8 +124,8 @@ void Scene::build_couplings()
             throw InputError(path + "/Bodies",
                              "contact needs the faces of a FEM body; between "
                              "particles use a self-contact");
-          couplings.push_back(std::make_unique<Contact>(
-              name, pointers, pairs, options, communicator));
+          couplings.push_back(std::make_unique<Contact>(name, pointers, pairs,
+                                                        options, communicator));
         }
         else
         {

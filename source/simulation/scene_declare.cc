@@ -33,7 +33,8 @@ void declare_top(ParameterHandler &prm)
                     QuantityPattern(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
                     "is off by more than this fraction.");
-  prm.declare_entry("List of bodies", "", names, "Names of the bodies, in order.");
+  prm.declare_entry("List of bodies", "", names,
+                    "Names of the bodies, in order.");
   prm.declare_entry("List of couplings", "", names, "Names of the couplings.");
   prm.declare_entry("List of outputs", "", names, "Names of the outputs.");
   prm.declare_entry("List of quantities", "", names,
@@ -46,11 +47,10 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
   prm.declare_entry("Discretization", "FEM", Patterns::Selection("FEM|SPG"),
                     "FEM: one-point hexahedra; SPG: smoothed-particle-Galerkin "
                     "particles.");
-  prm.declare_entry("Geometry", "box",
-                    Patterns::Selection(discretization == "SPG"
-                                            ? "box"
-                                            : "box|cylinder"),
-                    "Shape of the body.");
+  prm.declare_entry(
+      "Geometry", "box",
+      Patterns::Selection(discretization == "SPG" ? "box" : "box|cylinder"),
+      "Shape of the body.");
   prm.declare_entry("Material", "", Patterns::Anything(),
                     "Name of a subsection of Materials.");
   const QuantityPattern vector3(Dimension::length, 3, 3, -1e3, 1e3);
@@ -182,7 +182,8 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
   declare_top(prm);
   const auto each = [&](const std::string &section,
                         const std::vector<std::string> &kinds,
-                        const auto &declare_entries) {
+                        const auto &declare_entries)
+  {
     prm.enter_subsection(section);
     std::vector<std::string> present = kinds;
     if (file != nullptr)
@@ -196,14 +197,13 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
         list[8] = std::tolower(list[8]);
         for (const std::string &name : split_names(file->value(list, "")))
           if (std::find(present.begin(), present.end(), name) == present.end())
-            throw InputError(list, "\"" + name +
-                                       "\" is listed, but there is no \"" +
-                                       section + "/" + name + "\"" +
-                                       (present.empty()
-                                            ? std::string()
-                                            : "; did you mean \"" +
-                                                  nearest_name(name, present) +
-                                                  "\"?"));
+            throw InputError(
+                list, "\"" + name + "\" is listed, but there is no \"" +
+                          section + "/" + name + "\"" +
+                          (present.empty()
+                               ? std::string()
+                               : "; did you mean \"" +
+                                     nearest_name(name, present) + "\"?"));
       }
     }
     for (const std::string &name : present)
@@ -214,14 +214,13 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
     }
     prm.leave_subsection();
   };
-  const auto read = [&](const std::string &path, const std::string &standard) {
-    return file == nullptr ? standard : file->value(path, standard);
-  };
-  each("Materials", {"<name>"}, [&](const auto &, const auto &) {
-    Material::declare_parameters(prm);
-  });
+  const auto read = [&](const std::string &path, const std::string &standard)
+  { return file == nullptr ? standard : file->value(path, standard); };
+  each("Materials", {"<name>"},
+       [&](const auto &, const auto &) { Material::declare_parameters(prm); });
   each("Bodies", {"<FEM box>", "<FEM cylinder>", "<SPG box>"},
-       [&](const std::string &path, const std::string &name) {
+       [&](const std::string &path, const std::string &name)
+       {
          const bool manual = file == nullptr;
          declare_body(prm,
                       manual ? name.substr(1, 3)
@@ -230,9 +229,11 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
                              : read(path + "/Geometry", "box"));
        });
   each("Couplings", {"<tie>", "<contact>", "<self-contact>"},
-       [&](const std::string &path, const std::string &name) {
-         declare_coupling(prm, file == nullptr ? name.substr(1, name.size() - 2)
-                                               : read(path + "/Type", "contact"));
+       [&](const std::string &path, const std::string &name)
+       {
+         declare_coupling(prm, file == nullptr
+                                   ? name.substr(1, name.size() - 2)
+                                   : read(path + "/Type", "contact"));
        });
   each("Outputs", {"<name>"},
        [&](const auto &, const auto &) { declare_output(prm); });

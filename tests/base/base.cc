@@ -67,8 +67,8 @@ TEST(Quantity, units_dimensions_and_ranges)
 
   dealii::ParameterHandler prm;
   prm.declare_entry("Stress", "324 MPa", QuantityPattern(Dimension::pressure));
-  prm.declare_entry("Size", "1 mm, 2 cm", QuantityPattern(Dimension::length, 2,
-                                                          2, 0., 1.));
+  prm.declare_entry("Size", "1 mm, 2 cm",
+                    QuantityPattern(Dimension::length, 2, 2, 0., 1.));
   EXPECT_DOUBLE_EQ(get_quantity(prm, "Stress"), 324e6);
   EXPECT_DOUBLE_EQ(get_quantities(prm, "Size")[1], 0.02);
 }
@@ -126,8 +126,9 @@ TEST_F(Files, includes_are_looked_up_beside_the_includer)
 {
   std::filesystem::create_directory(folder + "/sub");
   write("sub/base.prm", "include more.prm\nset Title = base\n");
-  write("sub/more.prm",
-        "subsection Bodies\nsubsection plate\nset Cell size = 3 mm\nend\nend\n");
+  write(
+      "sub/more.prm",
+      "subsection Bodies\nsubsection plate\nset Cell size = 3 mm\nend\nend\n");
   const std::string file =
       write("scene.prm", "include sub/base.prm\nset Title = mine # comment\n");
   const ParameterFile parsed(file, {"Bodies/plate/Kind=SPG"});
@@ -137,14 +138,13 @@ TEST_F(Files, includes_are_looked_up_beside_the_includer)
   prm.enter_subsection("plate");
   EXPECT_DOUBLE_EQ(get_quantity(prm, "Cell size"), 3e-3);
   EXPECT_EQ(prm.get("Kind"), "SPG");
-  EXPECT_EQ(parsed.subsections("Bodies"),
-            std::vector<std::string>{"plate"});
+  EXPECT_EQ(parsed.subsections("Bodies"), std::vector<std::string>{"plate"});
 }
 
 TEST_F(Files, a_misspelt_entry_gets_file_line_and_a_suggestion)
 {
-  const std::string m =
-      message("subsection Bodies\nsubsection plate\nset Cell siez = 1\nend\nend");
+  const std::string m = message(
+      "subsection Bodies\nsubsection plate\nset Cell siez = 1\nend\nend");
   EXPECT_CONTAINS(m, "scene.prm:3: ");
   EXPECT_CONTAINS(m, "\"Cell siez\"");
   EXPECT_CONTAINS(m, "did you mean \"Cell size\"?");

@@ -194,8 +194,8 @@ TEST(Fem, elastic_wave_arrives_in_time)
   // sqrt(E/rho) and carries half of the imposed velocity difference at most.
   World world;
   const double L = 40e-3;
-  FemBody &body = add(world, box({{L, 2e-3, 2e-3}}, 1e-3), FemOptions(),
-                      elastic(0.));
+  FemBody &body =
+      add(world, box({{L, 2e-3, 2e-3}}, 1e-3), FemOptions(), elastic(0.));
   NodalState &n = body.nodes();
   const double c = std::sqrt(68.9e9 / 2700.);
   world.integrator.initialize();
@@ -225,14 +225,14 @@ TEST(Fem, copper_taylor_bar)
       HardeningParameters{400e6, 100e6, 1.});
   FemOptions options;
   options.initial_velocity = {{0., 0., -227.}};
-  FemBody &body = add(
-      world, make_cylinder(3.2e-3, 32.4e-3, 2, {{0, 0, 16.2e-3}}, 0.64e-3),
-      options, copper);
+  FemBody &body =
+      add(world, make_cylinder(3.2e-3, 32.4e-3, 2, {{0, 0, 16.2e-3}}, 0.64e-3),
+          options, copper);
   NodalState &n = body.nodes();
   world.integrator.initialize();
   const double energy = world.total_energy();
-  EXPECT_NEAR(energy, 0.5 * 8930. * M_PI * 3.2e-3 * 3.2e-3 * 32.4e-3 * 227. *
-                          227.,
+  EXPECT_NEAR(energy,
+              0.5 * 8930. * M_PI * 3.2e-3 * 3.2e-3 * 32.4e-3 * 227. * 227.,
               1e-9 * energy);
   double wall_work = 0.;
   while (world.integrator.time < 80e-6)
@@ -255,8 +255,7 @@ TEST(Fem, copper_taylor_bar)
   RecordProperty("length", std::to_string(length));
   std::printf("copper Taylor bar: length %.3f mm, radius %.3f mm, plastic "
               "strain %.2f\n",
-              1e3 * length, 1e3 * radius,
-              measure(body, "plastic strain max"));
+              1e3 * length, 1e3 * radius, measure(body, "plastic strain max"));
   EXPECT_NEAR(length, 21.45e-3, 0.25e-3);
   EXPECT_NEAR(radius, 7.15e-3, 0.35e-3);
 }

@@ -134,7 +134,8 @@ TEST(Spg, longitudinal_frequency_of_a_free_bar)
     n.velocity[i] =
         vec(std::sin(M_PI * n.reference_position[i][0] / L), 0., 0.);
   world.integrator.initialize();
-  const auto amplitude = [&]() {
+  const auto amplitude = [&]()
+  {
     double sum = 0.;
     for (std::size_t i = 0; i < n.n_owned; ++i)
       sum += n.lumped_mass[i] * n.velocity[i][0] *
@@ -241,8 +242,8 @@ TEST(Spg, coincident_particles_are_refused)
   ParticleCloud cloud = make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, 1e-3);
   cloud.position[7] = cloud.position[20];
   World world;
-  world.bodies.push_back(std::make_unique<SpgBody>("block", 0, cloud, elastic(),
-                                                   SpgOptions()));
+  world.bodies.push_back(
+      std::make_unique<SpgBody>("block", 0, cloud, elastic(), SpgOptions()));
   EXPECT_THROW(world.distribute(), InputError);
 }
 } // namespace

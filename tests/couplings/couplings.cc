@@ -28,9 +28,9 @@ void add_fem(World &world, const HexMesh &mesh,
   options.initial_velocity = velocity;
   options.bulk_viscosity_linear *= viscosity;
   options.bulk_viscosity_quadratic *= viscosity;
-  world.bodies.push_back(std::make_unique<FemBody>(
-      "fem" + std::to_string(world.bodies.size()), world.bodies.size(), mesh,
-      elastic(), options));
+  world.bodies.push_back(
+      std::make_unique<FemBody>("fem" + std::to_string(world.bodies.size()),
+                                world.bodies.size(), mesh, elastic(), options));
 }
 
 void add_spg(World &world, const std::array<double, 3> &size,
@@ -48,12 +48,12 @@ void add_spg(World &world, const std::array<double, 3> &size,
 /** A bar of hexahedra (cells of @p cell) and particles (spacing 1 mm), tied. */
 void add_tied_bar(World &world, const double cell)
 {
-  add_fem(world, make_graded_box(box({{20e-3, 4e-3, 4e-3}}, {{-10e-3, 0, 0}},
-                                     cell)),
+  add_fem(world,
+          make_graded_box(box({{20e-3, 4e-3, 4e-3}}, {{-10e-3, 0, 0}}, cell)),
           {{0, 0, 0}}, 0.);
   add_spg(world, {{20e-3, 4e-3, 4e-3}}, {{10e-3, 0, 0}}, 1e-3);
-  world.couplings.push_back(std::make_unique<Tie>(
-      "tie", world.pointers(), 1, 0, 0.05, MPI_COMM_WORLD));
+  world.couplings.push_back(std::make_unique<Tie>("tie", world.pointers(), 1, 0,
+                                                  0.05, MPI_COMM_WORLD));
   world.distribute();
 }
 
@@ -64,9 +64,8 @@ TEST(Tie, followers_take_linear_fields_exactly)
     World world;
     add_tied_bar(world, cell);
     EXPECT_EQ(world.couplings[0]->measure()[0].value, 25.);
-    const auto field = [](const Vec x) {
-      return vec(1. + 300. * x[0] - 20. * x[1], 5. * x[2], -7. * x[1]);
-    };
+    const auto field = [](const Vec x)
+    { return vec(1. + 300. * x[0] - 20. * x[1], 5. * x[2], -7. * x[1]); };
     NodalState &leaders = world.bodies[0]->nodes(),
                &followers = world.bodies[1]->nodes();
     for (std::size_t i = 0; i < leaders.size(); ++i)
@@ -120,17 +119,18 @@ TEST(Contact, two_bars_collide_and_part_with_momentum_and_energy)
   {
     World world;
     const double v = 50.;
-    add_fem(world,
-            make_graded_box(box({{3e-3, 3e-3, 10e-3}}, {{0, 0, 5.01e-3}}, 1e-3)),
-            {{0, 0, -v}});
+    add_fem(
+        world,
+        make_graded_box(box({{3e-3, 3e-3, 10e-3}}, {{0, 0, 5.01e-3}}, 1e-3)),
+        {{0, 0, -v}});
     if (particles)
       add_spg(world, {{3e-3, 3e-3, 10e-3}}, {{0, 0, -5.01e-3}}, 1e-3,
               {{0, 0, v}});
     else
-      add_fem(world,
-              make_graded_box(
-                  box({{3e-3, 3e-3, 10e-3}}, {{0, 0, -5.01e-3}}, 1e-3)),
-              {{0, 0, v}});
+      add_fem(
+          world,
+          make_graded_box(box({{3e-3, 3e-3, 10e-3}}, {{0, 0, -5.01e-3}}, 1e-3)),
+          {{0, 0, v}});
     std::vector<ContactPair> pairs = {{0, 1, false}};
     if (!particles)
       pairs.push_back({1, 0, false});
@@ -217,15 +217,14 @@ TEST(Contact, random_oblique_shots_do_not_pass_through)
   {
     Vec d = vec(normal(generator), normal(generator), normal(generator));
     d *= 1. / norm(d);
-    cloud.position.push_back(
-        {{9e-3 * d[0], 9e-3 * d[1], 9e-3 * d[2]}});
+    cloud.position.push_back({{9e-3 * d[0], 9e-3 * d[1], 9e-3 * d[2]}});
     cloud.volume.push_back(1e-12);
     cloud.on_face.push_back(0);
-    aim.push_back(vec(uniform(generator), uniform(generator),
-                      uniform(generator)));
+    aim.push_back(
+        vec(uniform(generator), uniform(generator), uniform(generator)));
   }
-  world.bodies.push_back(std::make_unique<SpgBody>("shots", 1, cloud, elastic(),
-                                                   SpgOptions()));
+  world.bodies.push_back(
+      std::make_unique<SpgBody>("shots", 1, cloud, elastic(), SpgOptions()));
   world.couplings.push_back(std::make_unique<Contact>(
       "contact", world.pointers(), std::vector<ContactPair>{{0, 1, false}},
       ContactOptions(), MPI_COMM_WORLD));
@@ -267,7 +266,8 @@ TEST(SelfContact, two_failed_particles_meet_and_part)
       "debris", world.pointers(), SelfContactOptions(), MPI_COMM_WORLD));
   world.distribute();
   NodalState &n = world.bodies[0]->nodes();
-  const auto throw_halves = [&](const double speed) {
+  const auto throw_halves = [&](const double speed)
+  {
     for (std::size_t i = 0; i < n.n_owned; ++i)
       n.velocity[i] =
           vec(n.reference_position[i][0] > 0.5e-3 ? speed : -speed, 0, 0);

@@ -1,7 +1,7 @@
+#include "sabot/kernels/vec.h"
 #include "sabot/kernels/closest_point.h"
 #include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/stress_update.h"
-#include "sabot/kernels/vec.h"
 
 #include <gtest/gtest.h>
 

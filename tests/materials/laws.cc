@@ -78,8 +78,7 @@ TEST(Hardening, kinematic_yields_early_on_reversal_and_isotropic_does_not)
   double reverse[2];
   for (const bool kinematic : {false, true})
   {
-    const HardeningPlasticity law(aluminium,
-                                  {324e6, 2e9, kinematic ? 0. : 1.});
+    const HardeningPlasticity law(aluminium, {324e6, 2e9, kinematic ? 0. : 1.});
     Point point(law);
     for (int i = 0; i < 200; ++i)
       point.step({0, 0, 0, 2e-4, 0, 0}, {0, 0, 0}, 1e-9);
@@ -112,7 +111,8 @@ TEST(JohnsonCook, shear_at_constant_rate_follows_the_integrated_law)
   for (int i = 0; i < m; ++i)
   {
     const double trial = tau + G * rate * h;
-    const auto yield = [&](const double d) {
+    const auto yield = [&](const double d)
+    {
       const double r = std::max(1., d / h / p.reference_strain_rate);
       return (p.A + p.B * std::pow(eps + d, p.n)) * (1. + p.C * std::log(r)) *
              (1. - std::pow(std::max(0., T - 294.) / (925. - 294.), p.m));

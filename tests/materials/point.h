@@ -18,8 +18,7 @@ struct Point
   }
 
   /** Apply l dt = strain (xx, yy, zz, xy, yz, xz) and spin (xy, yz, xz). */
-  void step(const double (&strain)[6], const double (&spin)[3],
-            const double dt)
+  void step(const double (&strain)[6], const double (&spin)[3], const double dt)
   {
     const double *const w[3] = {&spin[0], &spin[1], &spin[2]};
     double *s[6];

@@ -60,8 +60,7 @@ struct World
                              &e.hourglass, &e.contact, &e.friction},
                             MPI_COMM_WORLD);
     return {{e.kinetic.value(),
-             e.internal.value() + e.stabilization.value() +
-                 e.hourglass.value(),
+             e.internal.value() + e.stabilization.value() + e.hourglass.value(),
              e.contact.value() + e.friction.value()}};
   }
   double total_energy() const

@@ -40,7 +40,8 @@ public:
   }
 
   /** Fill the ghost entries of @p data; all ranks must call it. */
-  template <typename T> void update(T *data) const
+  template <typename T>
+  void update(T *data) const
   {
     if (is_trivial())
       return;

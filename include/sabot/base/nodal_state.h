@@ -15,12 +15,12 @@ namespace sabot
 struct NodalState
 {
   std::size_t n_owned = 0;
-  std::vector<GlobalIndex> global_id;     // [n_owned + n_ghost]
-  AlignedVector<Vec> reference_position;  // [n_owned + n_ghost]
-  AlignedVector<Vec> position;            // [n_owned + n_ghost]
-  AlignedVector<Vec> velocity;            // [n_owned + n_ghost]
-  AlignedVector<Vec> force;               // [n_owned + n_ghost], owned used
-  std::vector<double> lumped_mass;        // [n_owned + n_ghost]
+  std::vector<GlobalIndex> global_id;    // [n_owned + n_ghost]
+  AlignedVector<Vec> reference_position; // [n_owned + n_ghost]
+  AlignedVector<Vec> position;           // [n_owned + n_ghost]
+  AlignedVector<Vec> velocity;           // [n_owned + n_ghost]
+  AlignedVector<Vec> force;              // [n_owned + n_ghost], owned used
+  std::vector<double> lumped_mass;       // [n_owned + n_ghost]
   /** Mass that the integrator divides by: the lumped mass, plus what tied
       followers add; 0 for a follower, which the tie moves. */
   std::vector<double> inertia; // [n_owned + n_ghost]

@@ -39,8 +39,7 @@ public:
                   const double max = infinity);
   /** A comma-separated list of @p n_min to @p n_max quantities. */
   QuantityPattern(const Dimension dimension, const unsigned int n_min,
-                  const unsigned int n_max, const double min,
-                  const double max);
+                  const unsigned int n_max, const double min, const double max);
 
   bool match(const std::string &text) const override;
   std::string description(const OutputStyle style = Machine) const override;

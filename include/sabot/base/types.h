@@ -13,11 +13,15 @@ namespace sabot
 using GlobalIndex = std::int64_t;
 
 /** Allocator for arrays of Vec and for loops that the compiler vectorises. */
-template <typename T> struct AlignedAllocator
+template <typename T>
+struct AlignedAllocator
 {
   using value_type = T;
   AlignedAllocator() = default;
-  template <typename U> AlignedAllocator(const AlignedAllocator<U> &) {}
+  template <typename U>
+  AlignedAllocator(const AlignedAllocator<U> &)
+  {
+  }
   T *allocate(const std::size_t n)
   {
     return static_cast<T *>(
@@ -27,17 +31,20 @@ template <typename T> struct AlignedAllocator
   {
     ::operator delete(p, std::align_val_t(64));
   }
-  template <typename U> bool operator==(const AlignedAllocator<U> &) const
+  template <typename U>
+  bool operator==(const AlignedAllocator<U> &) const
   {
     return true;
   }
-  template <typename U> bool operator!=(const AlignedAllocator<U> &) const
+  template <typename U>
+  bool operator!=(const AlignedAllocator<U> &) const
   {
     return false;
   }
 };
 
-template <typename T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+template <typename T>
+using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 } // namespace sabot
 
 #endif

@@ -60,7 +60,8 @@ public:
   const int id;
 
   /** Positions of all nodes in global order, before distribute(). */
-  virtual const std::vector<std::array<double, 3>> &partition_points() const = 0;
+  virtual const std::vector<std::array<double, 3>> &
+  partition_points() const = 0;
   /** Cost of one node, relative to others, for the partition. */
   virtual double partition_weight() const = 0;
   /** Keep the nodes whose owner is this rank; all ranks call it. */

@@ -20,8 +20,8 @@ struct ContactPair
  */
 struct ContactMemory
 {
-  double depth = -1.;  // at the last step [m]; negative: not known
-  double offset = 0.;  // part of the depth that does not repel [m]
+  double depth = -1.; // at the last step [m]; negative: not known
+  double offset = 0.; // part of the depth that does not repel [m]
 };
 
 /** A node that may touch faces until the bodies have moved by the skin. */
@@ -42,8 +42,8 @@ struct FaceNodes
 
 struct SearchResult
 {
-  std::vector<FaceNodes> faces;              // the same on every rank
-  std::vector<ContactCandidate> candidates;  // sorted by node, then face
+  std::vector<FaceNodes> faces;             // the same on every rank
+  std::vector<ContactCandidate> candidates; // sorted by node, then face
 };
 
 /** Memories of the nodes owned here, sorted by node. */
@@ -59,11 +59,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
                              const ContactMemories &memories,
                              const double reach, MPI_Comm communicator);
 
-
-
 /** Largest speed among this rank's nodes of the bodies of @p pairs [m/s]. */
-double largest_speed(const std::vector<Body *> &bodies,
-                     MPI_Comm communicator);
+double largest_speed(const std::vector<Body *> &bodies, MPI_Comm communicator);
 } // namespace sabot
 
 #endif

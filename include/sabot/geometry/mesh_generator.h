@@ -11,8 +11,8 @@ namespace sabot
 struct BoxSpecification
 {
   std::array<double, 3> centre{{0., 0., 0.}}, size{{0., 0., 0.}}; // [m]
-  double cell_size = 0.;            // [m]
-  double coarsest_cell_size = 1e30; // [m]
+  double cell_size = 0.;                                          // [m]
+  double coarsest_cell_size = 1e30;                               // [m]
   double growth_ratio = 1.;
   bool has_zone = false;
   std::array<double, 3> zone_centre{{0., 0., 0.}}, zone_size{{0., 0., 0.}};

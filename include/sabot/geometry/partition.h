@@ -14,9 +14,9 @@ namespace sabot
  * @p points and @p weights are the same on every rank; so is the result.
  * Collective.
  */
-std::vector<int>
-partition(const std::vector<std::array<double, 3>> &points,
-          const std::vector<float> &weights, MPI_Comm communicator);
+std::vector<int> partition(const std::vector<std::array<double, 3>> &points,
+                           const std::vector<float> &weights,
+                           MPI_Comm communicator);
 } // namespace sabot
 
 #endif

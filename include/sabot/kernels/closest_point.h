@@ -100,7 +100,8 @@ inline FaceProjection project_on_face(const Vec p, const std::array<Vec, 4> &x)
     best.distance_square = d2;
     best.facing = facing;
     best.gap = along < 0. ? -distance : distance;
-    const bool inside = facing > 1. - 1e-9 || distance < 1e-12 * std::sqrt(size);
+    const bool inside =
+        facing > 1. - 1e-9 || distance < 1e-12 * std::sqrt(size);
     best.normal = inside ? n : (1. / best.gap) * offset;
     if (inside)
       best.gap = along;

@@ -20,7 +20,10 @@ inline Vec vec(const double x, const double y, const double z)
   return Vec{x, y, z, 0.};
 }
 
-inline Vec broadcast(const double a) { return Vec{a, a, a, a}; }
+inline Vec broadcast(const double a)
+{
+  return Vec{a, a, a, a};
+}
 
 inline double dot(const Vec a, const Vec b)
 {
@@ -28,9 +31,15 @@ inline double dot(const Vec a, const Vec b)
   return c[0] + c[1] + c[2];
 }
 
-inline double norm_square(const Vec a) { return dot(a, a); }
+inline double norm_square(const Vec a)
+{
+  return dot(a, a);
+}
 
-inline double norm(const Vec a) { return std::sqrt(dot(a, a)); }
+inline double norm(const Vec a)
+{
+  return std::sqrt(dot(a, a));
+}
 
 inline Vec cross(const Vec a, const Vec b)
 {
@@ -44,10 +53,7 @@ struct Mat
   Vec row[3];
 
   static Mat zero() { return {{Vec{}, Vec{}, Vec{}}}; }
-  static Mat identity()
-  {
-    return {{vec(1, 0, 0), vec(0, 1, 0), vec(0, 0, 1)}};
-  }
+  static Mat identity() { return {{vec(1, 0, 0), vec(0, 1, 0), vec(0, 0, 1)}}; }
   double operator()(const int i, const int j) const { return row[i][j]; }
   void set(const int i, const int j, const double a) { row[i][j] = a; }
 };
@@ -95,7 +101,10 @@ inline Mat transpose(const Mat &a)
            vec(a(0, 2), a(1, 2), a(2, 2))}};
 }
 
-inline double trace(const Mat &a) { return a(0, 0) + a(1, 1) + a(2, 2); }
+inline double trace(const Mat &a)
+{
+  return a(0, 0) + a(1, 1) + a(2, 2);
+}
 
 inline double determinant(const Mat &a)
 {

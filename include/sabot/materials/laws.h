@@ -17,8 +17,8 @@ public:
 /** J2 plasticity with linear mixed hardening. */
 struct HardeningParameters
 {
-  double yield_stress = 0.;      // [Pa]
-  double hardening_modulus = 0.; // d sigma_y / d eps_p [Pa]
+  double yield_stress = 0.;       // [Pa]
+  double hardening_modulus = 0.;  // d sigma_y / d eps_p [Pa]
   double isotropic_fraction = 1.; // 1: isotropic, 0: kinematic
 };
 

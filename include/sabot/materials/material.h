@@ -24,12 +24,12 @@ constexpr int n_symmetric = 6;
 struct MaterialBatch
 {
   std::size_t n = 0;
-  double dt = 0.;                               // [s] > 0
-  const double *strain_increment[n_symmetric];  // D dt, tensor components
-  const double *jacobian;                       // det F total, new
-  double *stress[n_symmetric];                  // Cauchy [Pa], in/out
+  double dt = 0.;                              // [s] > 0
+  const double *strain_increment[n_symmetric]; // D dt, tensor components
+  const double *jacobian;                      // det F total, new
+  double *stress[n_symmetric];                 // Cauchy [Pa], in/out
   double *state(const std::size_t i) const { return states[i]; }
-  double *const *states;  // the material's own, n_states() arrays
+  double *const *states; // the material's own, n_states() arrays
   /** Square of a stress that a body carries besides @p stress and that shares
       its yield condition [Pa^2], e.g. of the stabilisation: the yield function
       sees q = sqrt(3/2 s:s + extra_square) and both are returned by theta. */

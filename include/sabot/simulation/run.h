@@ -68,7 +68,7 @@ private:
   std::string limiter;
   std::vector<double> next_output; // [s], per output of the scene
   double next_check = 0.;
-  Measures ledger;           // last row
+  Measures ledger; // last row
   double initial_energy = 0., largest_energy = 0.;
   double last_residual = 0., largest_residual = 0.;
   std::array<double, 3> initial_momentum{};

@@ -62,13 +62,12 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
     const auto &nodes = mesh.cells[c];
-    if (std::none_of(nodes.begin(), nodes.end(), [&](const GlobalIndex a) {
-          return owner[a] == rank;
-        }))
+    if (std::none_of(nodes.begin(), nodes.end(),
+                     [&](const GlobalIndex a) { return owner[a] == rank; }))
       continue;
     cell_id.push_back(c);
-    owned_cell.push_back(
-        owner[*std::min_element(nodes.begin(), nodes.end())] == rank);
+    owned_cell.push_back(owner[*std::min_element(nodes.begin(), nodes.end())] ==
+                         rank);
     for (const GlobalIndex a : nodes)
       if (owner[a] != rank)
         ghosts.push_back(a);
@@ -78,12 +77,12 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   std::vector<int> ghost_owner;
   for (const GlobalIndex g : ghosts)
     ghost_owner.push_back(owner[g]);
-  node_exchange = GhostExchange(
-      communicator, owned.size(), ghost_owner, ghosts,
-      [&](const GlobalIndex key) {
-        return std::lower_bound(owned.begin(), owned.end(), key) -
-               owned.begin();
-      });
+  node_exchange =
+      GhostExchange(communicator, owned.size(), ghost_owner, ghosts,
+                    [&](const GlobalIndex key) {
+                      return std::lower_bound(owned.begin(), owned.end(), key) -
+                             owned.begin();
+                    });
 
   std::vector<GlobalIndex> ids = owned;
   ids.insert(ids.end(), ghosts.begin(), ghosts.end());
@@ -259,9 +258,8 @@ OutputMesh FemBody::output_mesh() const
                      nodal_state.reference_position[i][c];
             });
   add_field(out.point_fields, "velocity", "m/s", n_nodes, 3,
-            [&](const std::size_t i, const unsigned int c) {
-              return nodal_state.velocity[i][c];
-            });
+            [&](const std::size_t i, const unsigned int c)
+            { return nodal_state.velocity[i][c]; });
   add_material_fields(out.cell_fields, cells, connectivity.size(), stress_data,
                       state_data, state_variables);
   add_field(out.cell_fields, "body", "1", cells.size(), 1,
@@ -273,9 +271,8 @@ OutputMesh FemBody::output_mesh() const
 
 void FemBody::visit_state(StateVisitor &visitor)
 {
-  const auto visit = [&](const std::string &array, auto &data) {
-    visitor.visit(array, data.data(), data.size(), sizeof(data[0]));
-  };
+  const auto visit = [&](const std::string &array, auto &data)
+  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
   visit("position", nodal_state.position);
   visit("velocity", nodal_state.velocity);
   visit("force", nodal_state.force);

@@ -97,25 +97,23 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
     double thickness;
     const double elastic_step = cell_stable_step(e, F_inverse, J, thickness);
     const double rate = dt > 0. ? trace(l) / dt : 0.;
-    batch.viscous_pressure[k] =
-        bulk_viscosity_pressure(density / J, c, thickness, rate,
-                                options.bulk_viscosity_linear,
-                                options.bulk_viscosity_quadratic);
+    batch.viscous_pressure[k] = bulk_viscosity_pressure(
+        density / J, c, thickness, rate, options.bulk_viscosity_linear,
+        options.bulk_viscosity_quadratic);
     if (!(J > 0.))
     {
       const Vec x = nodal_state.position[nodes[0]];
-      throw PhysicsError("body " + name + ", cell " +
-                         std::to_string(cell_id[e]) + " near (" +
-                         std::to_string(x[0]) + ", " + std::to_string(x[1]) +
-                         ", " + std::to_string(x[2]) +
-                         ") m is turned inside out (det F = " +
-                         std::to_string(J) + ")");
+      throw PhysicsError(
+          "body " + name + ", cell " + std::to_string(cell_id[e]) + " near (" +
+          std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " +
+          std::to_string(x[2]) +
+          ") m is turned inside out (det F = " + std::to_string(J) + ")");
     }
     // Bulk viscosity shortens the step: damping ratio xi of the cell's own
     // compression.
-    const double xi = options.bulk_viscosity_linear +
-                      options.bulk_viscosity_quadratic * thickness *
-                          std::max(0., -rate) / c;
+    const double xi =
+        options.bulk_viscosity_linear +
+        options.bulk_viscosity_quadratic * thickness * std::max(0., -rate) / c;
     const double step = elastic_step * (std::sqrt(1. + xi * xi) - xi);
     if (step < current_stable_step)
     {
@@ -130,13 +128,12 @@ double FemBody::cell_stable_step(const std::size_t e, const Mat &F_inverse,
 {
   // omega^2 <= 8 V/m (lambda tr G + 2 mu lambda_max G), G = sum b_a b_a^T with
   // the present gradients b_a = F^-T B_a (doc/theory-fem.md).
-  const Mat G =
-      transpose(F_inverse) * geometry[e].gradient_square * F_inverse;
+  const Mat G = transpose(F_inverse) * geometry[e].gradient_square * F_inverse;
   const double mu = material->shear_modulus(),
                lambda = material->bulk_modulus() - 2. / 3. * mu;
-  const double largest = std::min(
-      trace(G), std::sqrt(norm_square(G.row[0]) + norm_square(G.row[1]) +
-                          norm_square(G.row[2])));
+  const double largest = std::min(trace(G), std::sqrt(norm_square(G.row[0]) +
+                                                      norm_square(G.row[1]) +
+                                                      norm_square(G.row[2])));
   // A slab of thickness h has lambda_max = 1/(2 h^2).
   thickness = std::sqrt(0.5 / largest);
   const double omega_square =
@@ -191,7 +188,8 @@ void FemBody::stresses(const std::size_t begin, const std::size_t end,
         batch.half_volume[k] *
         (batch.strain[0][k] + batch.strain[1][k] + batch.strain[2][k]);
     viscous_pressure[begin + k] = batch.viscous_pressure[k];
-    plastic_work[begin + k] += 2. * batch.plastic_work[k] * batch.half_volume[k];
+    plastic_work[begin + k] +=
+        2. * batch.plastic_work[k] * batch.half_volume[k];
   }
 }
 
@@ -213,8 +211,8 @@ void FemBody::scatter_forces(const std::size_t begin, const std::size_t end,
                         vec(s[3 * n], s[n] - q, s[4 * n]),
                         vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
     // V_0 P, then the part of the hourglass forces that acts through B.
-    Mat P = (volume[e] * batch.jacobian[k]) *
-            (sigma * batch.inverse_transposed[k]);
+    Mat P =
+        (volume[e] * batch.jacobian[k]) * (sigma * batch.inverse_transposed[k]);
 
     // Flanagan & Belytschko 1981: viscosity ~ rho c V^(2/3), stiffness
     // ~ rho c^2 V^(1/3), both for base vectors of unit entries.

@@ -25,10 +25,11 @@ BondList::build(const std::vector<std::array<double, 3>> &points,
   std::array<std::size_t, 3> n_buckets;
   for (int d = 0; d < 3; ++d)
     n_buckets[d] = static_cast<std::size_t>((high[d] - low[d]) / support) + 1;
-  const auto bucket_of = [&](const std::array<double, 3> &p, const int d) {
-    return std::min(n_buckets[d] - 1, static_cast<std::size_t>(
-                                          (p[d] / spacing[d] - low[d]) /
-                                          support));
+  const auto bucket_of = [&](const std::array<double, 3> &p, const int d)
+  {
+    return std::min(
+        n_buckets[d] - 1,
+        static_cast<std::size_t>((p[d] / spacing[d] - low[d]) / support));
   };
   std::vector<std::vector<GlobalIndex>> buckets(n_buckets[0] * n_buckets[1] *
                                                 n_buckets[2]);
@@ -142,13 +143,14 @@ void BondList::reconnect()
         keys.push_back(id[j] * n_total + id[i]);
       }
     }
-  exchange = GhostExchange(
-      communicator, neighbor.size(), owners, keys,
-      [&](const GlobalIndex key) {
-        const auto i =
-            std::lower_bound(id.begin(), id.begin() + n_owned, key / n_total);
-        return find(i - id.begin(), key % n_total);
-      });
+  exchange =
+      GhostExchange(communicator, neighbor.size(), owners, keys,
+                    [&](const GlobalIndex key)
+                    {
+                      const auto i = std::lower_bound(
+                          id.begin(), id.begin() + n_owned, key / n_total);
+                      return find(i - id.begin(), key % n_total);
+                    });
   force.resize(neighbor.size() + owners.size());
 }
 

@@ -102,9 +102,9 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   for (const GlobalIndex g : ghosts)
     ghost_owner.push_back(owner[g]);
   node_exchange = GhostExchange(
-      communicator, n, ghost_owner, ghosts, [&](const GlobalIndex key) {
-        return std::lower_bound(ids.begin(), ids.end(), key) - ids.begin();
-      });
+      communicator, n, ghost_owner, ghosts,
+      [&](const GlobalIndex key)
+      { return std::lower_bound(ids.begin(), ids.end(), key) - ids.begin(); });
 
   ids.insert(ids.end(), ghosts.begin(), ghosts.end());
   nodal_state.resize(ids.size());

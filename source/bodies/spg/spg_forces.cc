@@ -76,9 +76,9 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     // size also tells how much stiffer compression has made the particle.
     const Mat F_inverse = inverse(F);
     batch.nominal[k] = transpose(F_inverse);
-    const double stiffening =
-        norm_square(F_inverse.row[0]) + norm_square(F_inverse.row[1]) +
-        norm_square(F_inverse.row[2]) - 2.;
+    const double stiffening = norm_square(F_inverse.row[0]) +
+                              norm_square(F_inverse.row[1]) +
+                              norm_square(F_inverse.row[2]) - 2.;
     double step = update_stable_step[i] / std::sqrt(std::max(1., stiffening));
     // Bulk viscosity, as for hexahedra; a flattened particle's step tells its
     // smallest dimension.
@@ -100,13 +100,12 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
       stable_step_item = nodal_state.global_id[i];
     }
     if (!(J > 0.05) && problem.empty())
-      problem =
-          "body " + name + ", particle " +
-          std::to_string(nodal_state.global_id[i]) + " at (" +
-          std::to_string(xi[0]) + ", " + std::to_string(xi[1]) + ", " +
-          std::to_string(xi[2]) +
-          ") m: incremental deformation gradient has determinant " +
-          std::to_string(J);
+      problem = "body " + name + ", particle " +
+                std::to_string(nodal_state.global_id[i]) + " at (" +
+                std::to_string(xi[0]) + ", " + std::to_string(xi[1]) + ", " +
+                std::to_string(xi[2]) +
+                ") m: incremental deformation gradient has determinant " +
+                std::to_string(J);
     largest_change = std::max({largest_change, J, 1. / J});
   }
 }
@@ -173,7 +172,8 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
         batch.half_volume[k] *
         (batch.strain[0][k] + batch.strain[1][k] + batch.strain[2][k]);
     viscous_pressure[begin + k] = batch.viscous_pressure[k];
-    plastic_work[begin + k] += 2. * batch.plastic_work[k] * batch.half_volume[k];
+    plastic_work[begin + k] +=
+        2. * batch.plastic_work[k] * batch.half_volume[k];
   }
 }
 

@@ -37,8 +37,8 @@ void SpgBody::update_topology(const unsigned int step, const double)
 void SpgBody::update_kernel()
 {
   const std::size_t n = nodal_state.n_owned;
-  const Vec axes = options.normalized_support *
-                   vec(spacing[0], spacing[1], spacing[2]);
+  const Vec axes =
+      options.normalized_support * vec(spacing[0], spacing[1], spacing[2]);
   for (std::size_t i = 0; i < n; ++i)
   {
     const Mat F = gradient[i];
@@ -160,14 +160,12 @@ void SpgBody::compute_moments()
             ? Mat::zero()
             : damped_inverse(M, lost_direction * intact_eigenvalue[i],
                              n_damped);
-    moment_inverse[i] =
-        transpose(H_inverse) * inverse_moment * H_inverse;
+    moment_inverse[i] = transpose(H_inverse) * inverse_moment * H_inverse;
     weak[i] = n_damped > 0;
     const double S = std::max(spread, 0.5 * intact_spread[i]);
-    bond_stiffness[i] = weak[i] || S == 0.
-                            ? 0.
-                            : options.stabilization_coefficient * mu *
-                                  kernel_volume[i] / S;
+    bond_stiffness[i] = weak[i] || S == 0. ? 0.
+                                           : options.stabilization_coefficient *
+                                                 mu * kernel_volume[i] / S;
   }
 }
 
@@ -214,16 +212,16 @@ void SpgBody::estimate_stable_step()
       row += share[j].volume * share[j].gradient_sum *
              norm(inverse_moment[j] * dX);
       self -= moment_inverse[i] * dX;
-      springs += 2. * bonds.weight[b] * (share[i].stiffness + share[j].stiffness);
+      springs +=
+          2. * bonds.weight[b] * (share[i].stiffness + share[j].stiffness);
     }
     row += share[i].volume * share[i].gradient_sum * norm(self);
     const double mass = nodal_state.inertia[i] > 0.
                             ? nodal_state.inertia[i]
                             : nodal_state.lumped_mass[i];
     const double omega_square = (modulus * row + springs) / mass;
-    update_stable_step[i] = omega_square > 0.
-                                ? 2. / std::sqrt(omega_square)
-                                : 2. * mean_spacing / c;
+    update_stable_step[i] = omega_square > 0. ? 2. / std::sqrt(omega_square)
+                                              : 2. * mean_spacing / c;
   }
 }
 } // namespace sabot

@@ -45,8 +45,8 @@ Measures SpgBody::measure() const
   measures.push_back({"stabilisation energy", "J", stabilization.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
   const double n = bonds_initial.value();
-  measures.push_back({"bonds broken fraction", "1",
-                      n > 0. ? 1. - bonds_now.value() / n : 0.});
+  measures.push_back(
+      {"bonds broken fraction", "1", n > 0. ? 1. - bonds_now.value() / n : 0.});
   measures.push_back({"weak particles", "1", n_weak.value()});
   measures.push_back({"isolated particles", "1", n_isolated.value()});
   if (temperature)
@@ -76,13 +76,13 @@ OutputMesh SpgBody::output_mesh() const
                      nodal_state.reference_position[i][c];
             });
   add_field(fields, "velocity", "m/s", n, 3,
-            [&](const std::size_t i, const unsigned int c) {
-              return nodal_state.velocity[i][c];
-            });
+            [&](const std::size_t i, const unsigned int c)
+            { return nodal_state.velocity[i][c]; });
   add_material_fields(fields, items, n, stress_data, state_data,
                       state_variables);
   add_field(fields, "failed-bond fraction", "1", n, 1,
-            [&](const std::size_t i, const unsigned int) {
+            [&](const std::size_t i, const unsigned int)
+            {
               const double initial = bonds.n_initial(i);
               return initial > 0. ? 1. - bonds.n_bonds(i) / initial : 0.;
             });
@@ -95,9 +95,8 @@ OutputMesh SpgBody::output_mesh() const
 
 void SpgBody::visit_state(StateVisitor &visitor)
 {
-  const auto visit = [&](const std::string &array, auto &data) {
-    visitor.visit(array, data.data(), data.size(), sizeof(data[0]));
-  };
+  const auto visit = [&](const std::string &array, auto &data)
+  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
   visit("position", nodal_state.position);
   visit("velocity", nodal_state.velocity);
   visit("force", nodal_state.force);

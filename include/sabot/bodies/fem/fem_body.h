@@ -126,9 +126,9 @@ private:
   std::vector<std::array<std::uint32_t, 8>> connectivity;
   AlignedVector<CellGeometry> geometry;
   AlignedVector<HourglassModes> hourglass_modes;
-  AlignedVector<Mat> gradient; // F
+  AlignedVector<Mat> gradient;          // F
   std::vector<double> viscous_pressure; // of the last step [Pa]
-  std::vector<double> volume;  // V_0 [m^3]
+  std::vector<double> volume;           // V_0 [m^3]
   std::vector<GlobalIndex> cell_id;
   std::vector<char> owned_cell;
   std::vector<double> stress_data, state_data;

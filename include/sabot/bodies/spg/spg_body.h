@@ -132,7 +132,7 @@ private:
   BondList bonds;
 
   // Owned and ghost particles
-  AlignedVector<Vec> kernel_position; // X of the last kernel update
+  AlignedVector<Vec> kernel_position;    // X of the last kernel update
   AlignedVector<Mat> generalized_stress; // Q
   AlignedVector<Mat> kernel;             // H, columns: semi-axes
   std::vector<double> plastic_strain_copy;
@@ -144,16 +144,16 @@ private:
   AlignedVector<Mat> gradient;       // F since the last kernel update
   AlignedVector<Mat> total_gradient; // F up to the last kernel update
   AlignedVector<Mat> moment_inverse;
-  std::vector<double> bond_stiffness;   // k_N = alpha mu V_N / S_N
+  std::vector<double> bond_stiffness;    // k_N = alpha mu V_N / S_N
   std::vector<double> intact_eigenvalue; // of the intact moment matrix
   std::vector<double> intact_spread;     // S_N of the intact neighbourhood
-  std::vector<char> weak;               // a direction is lost
+  std::vector<char> weak;                // a direction is lost
   std::vector<char> has_failed_bond;
   std::vector<double> stress_data;      // [6][n_owned]
   std::vector<double> state_data;       // [n_states][n_owned]
   std::vector<double> viscous_pressure; // of the last step [Pa]
   std::vector<double> internal_energy, bond_work, plastic_work; // [J]
-  std::vector<double> force_on_residual; // sum t . e of the last step [J]
+  std::vector<double> force_on_residual;  // sum t . e of the last step [J]
   std::vector<double> update_stable_step; // [s] at the last kernel update
   double current_stable_step = 0.;
   GlobalIndex stable_step_item = -1;
