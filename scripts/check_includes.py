@@ -10,7 +10,8 @@ import sys
 import tempfile
 
 FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
-        "bodies/spg", "couplings", "integrator", "output", "simulation", ""}
+        "bodies/spg", "couplings", "integrator", "output", "simulation",
+        "verification", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
 # Folder: folders or single headers that it may include, besides its own.
 ALLOWED = {
@@ -25,6 +26,7 @@ ALLOWED = {
     "integrator": {"base", "kernels", BODY, COUPLING},
     "output": {"base", BODY, COUPLING},
     "simulation": FREE,
+    "verification": FREE,
     "": FREE,
 }
 OUTSIDE_KERNELS = re.compile(r'#include\s+[<"](deal\.II|mpi|hdf5|vtk|CLI)')

@@ -1,6 +1,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
+#include "sabot/verification/problem.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -16,7 +17,9 @@ struct Arguments
 {
   std::string scene, folder = "results", format = "markdown";
   std::vector<std::string> overrides;
-  bool quiet = false;
+  std::vector<std::string> problems;
+  std::string json_file;
+  bool quiet = false, list = false;
 };
 
 /** "file:line: message" of bad input. */
@@ -79,6 +82,20 @@ ExitCode print_parameters(const Arguments &arguments)
   }
   return ExitCode::done;
 }
+
+ExitCode run_verification(const Arguments &arguments)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    throw InputError("", "`sabot verify` runs on one rank");
+  if (arguments.list)
+  {
+    list_problems();
+    return ExitCode::done;
+  }
+  return verify(arguments.problems, arguments.json_file)
+             ? ExitCode::done
+             : ExitCode::physics_failed;
+}
 } // namespace
 
 int main(int argc, char **argv)
@@ -109,6 +126,13 @@ int main(int argc, char **argv)
   parameters->add_option("--format", arguments.format, "")
       ->check(CLI::IsMember({"markdown", "prm", "json", "xml"}))
       ->capture_default_str();
+  CLI::App *const verification = app.add_subcommand(
+      "verify", "Compare verification problems with exact answers");
+  verification->add_option("name", arguments.problems,
+                           "Problems or labels; none: all quick ones");
+  verification->add_flag("--list", arguments.list, "Name the problems");
+  verification->add_option("--json", arguments.json_file,
+                           "Write the checks to this file");
   try
   {
     app.parse(argc, argv);
@@ -124,8 +148,9 @@ int main(int argc, char **argv)
   ExitCode code = ExitCode::done;
   try
   {
-    code = *parameters ? print_parameters(arguments)
-                       : run_scene(arguments, bool(*check));
+    code = *parameters     ? print_parameters(arguments)
+           : *verification ? run_verification(arguments)
+                           : run_scene(arguments, bool(*check));
   }
   catch (const InputError &error)
   {

@@ -1,4 +1,4 @@
-#include "../support/bodies.h"
+#include "sabot/verification/world.h"
 
 #include <gtest/gtest.h>
 

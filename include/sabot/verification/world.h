@@ -1,5 +1,5 @@
-#ifndef tests_support_bodies_h
-#define tests_support_bodies_h
+#ifndef sabot_verification_world_h
+#define sabot_verification_world_h
 
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/spg/spg_body.h"
@@ -11,14 +11,15 @@
 #include <cmath>
 #include <random>
 
+namespace sabot
+{
 /** Bodies and couplings under the integrator, without a scene file. */
 struct World
 {
-  std::vector<std::unique_ptr<sabot::Body>> bodies;
-  std::vector<std::unique_ptr<sabot::Coupling>> couplings;
-  sabot::Timers timers;
-  sabot::CentralDifference integrator{bodies, couplings, timers,
-                                      MPI_COMM_WORLD};
+  std::vector<std::unique_ptr<Body>> bodies;
+  std::vector<std::unique_ptr<Coupling>> couplings;
+  Timers timers;
+  CentralDifference integrator{bodies, couplings, timers, MPI_COMM_WORLD};
   unsigned int step = 0;
 
   void distribute()
@@ -26,16 +27,16 @@ struct World
     for (auto &body : bodies)
     {
       const auto &points = body->partition_points();
-      body->node_owner = sabot::partition(
+      body->node_owner = partition(
           points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
       body->distribute(body->node_owner, MPI_COMM_WORLD);
     }
     for (auto c = couplings.rbegin(); c != couplings.rend(); ++c)
       (*c)->initialize();
   }
-  std::vector<sabot::Body *> pointers() const
+  std::vector<Body *> pointers() const
   {
-    std::vector<sabot::Body *> p;
+    std::vector<Body *> p;
     for (auto &body : bodies)
       p.push_back(body.get());
     return p;
@@ -51,14 +52,14 @@ struct World
       friction. */
   std::array<double, 3> energies() const
   {
-    sabot::EnergyLedger e;
+    EnergyLedger e;
     for (auto &body : bodies)
       body->add_energies(e);
     for (auto &coupling : couplings)
       coupling->add_energies(e);
-    sabot::ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization,
-                             &e.hourglass, &e.contact, &e.friction},
-                            MPI_COMM_WORLD);
+    ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
+                      &e.contact, &e.friction},
+                     MPI_COMM_WORLD);
     return {{e.kinetic.value(),
              e.internal.value() + e.stabilization.value() + e.hourglass.value(),
              e.contact.value() + e.friction.value()}};
@@ -74,11 +75,10 @@ struct World
     std::array<double, 6> sum{};
     for (auto &body : bodies)
     {
-      const sabot::NodalState &n = body->nodes();
+      const NodalState &n = body->nodes();
       for (std::size_t i = 0; i < n.n_owned; ++i)
       {
-        const sabot::Vec p = n.inertia[i] * n.velocity[i],
-                         l = sabot::cross(n.position[i], p);
+        const Vec p = n.inertia[i] * n.velocity[i], l = cross(n.position[i], p);
         for (int d = 0; d < 3; ++d)
         {
           sum[d] += p[d];
@@ -90,34 +90,33 @@ struct World
   }
 };
 
-inline std::shared_ptr<sabot::Material> elastic(const double nu = 0.33)
+inline std::shared_ptr<Material> elastic(const double nu = 0.33)
 {
-  return std::make_shared<sabot::Elastic>(
-      sabot::ElasticConstants{2700., 68.9e9, nu});
+  return std::make_shared<Elastic>(ElasticConstants{2700., 68.9e9, nu});
 }
 
-inline double measure(const sabot::Body &body, const std::string &name)
+inline double measure(const Body &body, const std::string &name)
 {
-  for (const sabot::Measure &m : body.measure())
+  for (const Measure &m : body.measure())
     if (m.name == name)
       return m.value;
   return std::nan("");
 }
 
 /** Random velocities of about @p speed on all owned nodes. */
-inline void shake(sabot::Body &body, const double speed)
+inline void shake(Body &body, const double speed)
 {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> uniform(-speed, speed);
-  for (sabot::Vec &v : body.nodes().velocity)
-    v = sabot::vec(uniform(generator), uniform(generator), uniform(generator));
+  for (Vec &v : body.nodes().velocity)
+    v = vec(uniform(generator), uniform(generator), uniform(generator));
 }
 
 /** Displace every node of a cloud by a random part of the spacing. */
-inline sabot::ParticleCloud perturbed_cloud(const std::array<double, 3> &size,
-                                            const double h, const double part)
+inline ParticleCloud perturbed_cloud(const std::array<double, 3> &size,
+                                     const double h, const double part)
 {
-  sabot::ParticleCloud cloud = sabot::make_box_cloud({{0, 0, 0}}, size, h);
+  ParticleCloud cloud = make_box_cloud({{0, 0, 0}}, size, h);
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> uniform(-part * h, part * h);
   for (auto &p : cloud.position)
@@ -125,5 +124,6 @@ inline sabot::ParticleCloud perturbed_cloud(const std::array<double, 3> &size,
       x += uniform(generator);
   return cloud;
 }
+} // namespace sabot
 
 #endif
