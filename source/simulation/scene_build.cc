@@ -154,7 +154,7 @@ void Scene::build_bodies()
 
     if (prm.get("Discretization") == "SPG")
     {
-      SpgOptions options = SpgOptions::parse(prm);
+      SpgOptions options = SpgOptions::parse(prm, path);
       options.initial_velocity = get_vector(prm, "Initial velocity");
       bodies.push_back(std::make_unique<SpgBody>(
           name, bodies.size(),

@@ -25,6 +25,19 @@ inline Vec broadcast(const double a)
   return Vec{a, a, a, a};
 }
 
+/** Single-precision storage of a Vec, 16 bytes. */
+typedef float StoredVec __attribute__((vector_size(16)));
+
+inline Vec load(const StoredVec a)
+{
+  return __builtin_convertvector(a, Vec);
+}
+
+inline StoredVec store(const Vec a)
+{
+  return __builtin_convertvector(a, StoredVec);
+}
+
 inline double dot(const Vec a, const Vec b)
 {
   const Vec c = a * b;
@@ -93,6 +106,12 @@ inline Mat operator*(const Mat &a, const Mat &b)
     c.row[i] = a.row[i][0] * b.row[0] + a.row[i][1] * b.row[1] +
                a.row[i][2] * b.row[2];
   return c;
+}
+
+/** a b without sums across lanes, for @p a given by its columns in row[]. */
+inline Vec multiply_columns(const Mat &columns, const Vec b)
+{
+  return b[0] * columns.row[0] + b[1] * columns.row[1] + b[2] * columns.row[2];
 }
 
 inline Mat transpose(const Mat &a)

@@ -14,6 +14,8 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
                        norm_square(nodal_state.velocity[i]));
     ledger.internal.add(internal_energy[i]);
     ledger.stabilization.add(bond_work[i]);
+    if (second_gradient)
+      ledger.stabilization.add(second_gradient->work[i]);
     ledger.plastic_work.add(plastic_work[i]);
   }
 }
@@ -22,33 +24,38 @@ Measures SpgBody::measure() const
 {
   const double *const eps = state_array("effective plastic strain");
   const double *const temperature = state_array("temperature");
-  ExactSum internal, stabilization, bonds_now, bonds_initial, n_weak,
-      n_isolated;
+  ExactSum internal, stabilization, bonds_failed, bonds_all, n_weak, n_isolated,
+      fallbacks;
+  fallbacks.add(n_fallback);
   double top[2] = {0., 0.};
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
   {
     internal.add(internal_energy[i]);
-    stabilization.add(bond_work[i]);
-    bonds_now.add(bonds.n_bonds(i));
-    bonds_initial.add(bonds.n_initial(i));
+    stabilization.add(bond_work[i] +
+                      (second_gradient ? second_gradient->work[i] : 0.));
+    bonds_failed.add(n_failed[i]);
+    bonds_all.add(bonds.n_bonds(i) + n_failed[i]);
     n_weak.add(weak[i]);
     n_isolated.add(bonds.n_bonds(i) == 0);
     top[0] = std::max(top[0], eps ? eps[i] : 0.);
     top[1] = std::max(top[1], temperature ? temperature[i] : 0.);
   }
-  ExactSum::reduce({&internal, &stabilization, &bonds_now, &bonds_initial,
-                    &n_weak, &n_isolated},
+  ExactSum::reduce({&internal, &stabilization, &bonds_failed, &bonds_all,
+                    &n_weak, &n_isolated, &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   Measures measures = measure_nodes(nodal_state, communicator);
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"stabilisation energy", "J", stabilization.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
-  const double n = bonds_initial.value();
+  const double n = bonds_all.value();
   measures.push_back(
-      {"bonds broken fraction", "1", n > 0. ? 1. - bonds_now.value() / n : 0.});
+      {"bonds broken fraction", "1", n > 0. ? bonds_failed.value() / n : 0.});
+  measures.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
   measures.push_back({"weak particles", "1", n_weak.value()});
   measures.push_back({"isolated particles", "1", n_isolated.value()});
+  if (options.approximation != SpgOptions::Approximation::least_squares)
+    measures.push_back({"approximation fallbacks", "1", fallbacks.value()});
   if (temperature)
     measures.push_back({"temperature max", "K", top[1]});
   return measures;
@@ -83,9 +90,16 @@ OutputMesh SpgBody::output_mesh() const
   add_field(fields, "failed-bond fraction", "1", n, 1,
             [&](const std::size_t i, const unsigned int)
             {
-              const double initial = bonds.n_initial(i);
-              return initial > 0. ? 1. - bonds.n_bonds(i) / initial : 0.;
+              const double all = bonds.n_bonds(i) + n_failed[i];
+              return all > 0. ? n_failed[i] / all : 0.;
             });
+  if (options.can_fail())
+  {
+    const std::vector<GlobalIndex> labels = fragment_labels();
+    add_field(fields, "fragment", "1", n, 1,
+              [&](const std::size_t i, const unsigned int)
+              { return double(labels[i]); });
+  }
   add_field(fields, "body", "1", n, 1,
             [&](std::size_t, unsigned int) { return double(id); });
   add_field(fields, "rank", "1", n, 1,
@@ -109,21 +123,27 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("moment inverse", moment_inverse);
   visit("bond stiffness", bond_stiffness);
   visit("weak", weak);
-  visit("has failed bond", has_failed_bond);
+  visit("failed bonds", n_failed);
   visit("stress", stress_data);
   visit("state", state_data);
   visit("viscous pressure", viscous_pressure);
   visit("internal energy", internal_energy);
   visit("bond work", bond_work);
-  visit("force on residual", force_on_residual);
-  visit("bond force", bonds.force);
+  visit("residual factor", residual_factor);
+  visit("previous position", previous_position);
   visit("plastic work", plastic_work);
   visit("update stable step", update_stable_step);
   visit("bond count", bonds.count);
   visit("bond neighbour", bonds.neighbor);
   visit("bond weight", bonds.weight);
-  visit("bond rest", bonds.rest);
+  visit("bond residual", bonds.residual);
   visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
+  if (second_gradient)
+    second_gradient->visit_state(visit);
+  visitor.visit("step calibration", &step_calibration, 1, sizeof(double));
+  visitor.visit("initial calibration", &initial_calibration, 1, sizeof(double));
+  visitor.visit("last calibration", &last_calibration, 1, sizeof(std::size_t));
+  visitor.visit("kernel updates", &n_updates, 1, sizeof(std::size_t));
   visitor.visit("largest change", &largest_change, 1, sizeof(double));
   bonds.reconnect();
 }
