@@ -1,6 +1,10 @@
 #ifndef sabot_kernels_vec_h
 #define sabot_kernels_vec_h
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 #include <array>
 #include <cmath>
 
@@ -30,12 +34,20 @@ typedef float StoredVec __attribute__((vector_size(16)));
 
 inline Vec load(const StoredVec a)
 {
+#ifdef __AVX__ // GCC 12 converts the halves one by one otherwise
+  return _mm256_cvtps_pd(a);
+#else
   return __builtin_convertvector(a, Vec);
+#endif
 }
 
 inline StoredVec store(const Vec a)
 {
+#ifdef __AVX__
+  return _mm256_cvtpd_ps(a);
+#else
   return __builtin_convertvector(a, StoredVec);
+#endif
 }
 
 inline double dot(const Vec a, const Vec b)

@@ -79,19 +79,22 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
 {
   const Vec *const x = nodal_state.position.data();
   const Vec *const X = kernel_position.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const double *const weight = bonds.weight.data();
   const double c = material->sound_speed();
   for (std::size_t i = begin; i < end; ++i)
   {
     Mat A = Mat::zero();
     const Vec xi = x[i], Xi = X[i];
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
     {
-      const std::uint32_t j = bonds.neighbor[b];
+      const std::uint32_t j = neighbor[b];
       const Vec dX = X[j] - Xi;
       if constexpr (stored_gradients)
         add_outer(A, x[j] - xi - dX, shape_gradient[b]);
       else
-        add_outer(A, x[j] - xi - dX, bonds.weight[b] * dX);
+        add_outer(A, x[j] - xi - dX, weight[b] * dX);
     }
     if constexpr (!stored_gradients)
       A = A * moment_inverse[i];
@@ -166,6 +169,9 @@ void SpgBody::residuals(const std::size_t begin, const std::size_t end)
   // = 3 alpha mu (2 W / V), yields together with the deviator.
   const Vec *const x = nodal_state.position.data();
   const Vec *const x_old = previous_position.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const double *const weight = bonds.weight.data();
+  StoredVec *const residual = bonds.residual.data();
   const double modulus =
       3. * options.stabilization_coefficient * material->shear_modulus();
   for (std::size_t i = begin; i < end; ++i)
@@ -176,20 +182,21 @@ void SpgBody::residuals(const std::size_t begin, const std::size_t end)
     const double theta = residual_factor[i];
     Vec trial_square = {}, old_trial = {}, old_square = {};
     Mat on_bond = Mat::zero(), on_residual = Mat::zero();
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
     {
-      const std::uint32_t j = bonds.neighbor[b];
+      const std::uint32_t j = neighbor[b];
       const Vec dx = x[j] - xi, dx_old = x_old[j] - xi_old;
-      const Vec e_old = theta * load(bonds.residual[b]);
+      const Vec e_old = theta * load(residual[b]);
       const StoredVec stored =
           store(dx - dx_old + e_old - multiply_columns(l, dx_old - e_old));
-      bonds.residual[b] = stored;
+      residual[b] = stored;
       // As stored: forces along e itself keep the angular momentum exact.
       const Vec e = load(stored);
-      const Vec we = bonds.weight[b] * e;
+      const Vec we = weight[b] * e;
       trial_square += we * e;
       old_trial += we * e_old;
-      old_square += bonds.weight[b] * e_old * e_old;
+      old_square += weight[b] * e_old * e_old;
       add_outer(on_bond, we, dx);
       add_outer(on_residual, we, e);
     }
@@ -316,25 +323,31 @@ template <bool stored_gradients, bool has_residuals>
 void SpgBody::gather_forces()
 {
   const Vec *const X = kernel_position.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data(), *const reverse =
+                                                                   bonds.reverse
+                                                                       .data();
+  const double *const weight = bonds.weight.data();
+  const StoredVec *const residual = bonds.residual.data();
+  const Mat *const stress = generalized_stress.data();
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
   {
-    const Mat Q = generalized_stress[i];
+    const Mat Q = stress[i];
     const double own_stiffness = Q.row[0][3];
     const Vec Xi = X[i];
     Vec f = {};
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
     {
-      const std::uint32_t j = bonds.neighbor[b];
-      const Mat &QJ = generalized_stress[j];
+      const std::uint32_t j = neighbor[b];
+      const Mat &QJ = stress[j];
       if constexpr (stored_gradients)
         f += multiply_columns(Q, shape_gradient[b]) -
-             multiply_columns(QJ, shape_gradient[bonds.reverse[b]]);
+             multiply_columns(QJ, shape_gradient[reverse[b]]);
       else
-        f += multiply_columns(Q + QJ, bonds.weight[b] * (X[j] - Xi));
+        f += multiply_columns(Q + QJ, weight[b] * (X[j] - Xi));
       if constexpr (has_residuals)
-        f += bonds.weight[b] *
-             (own_stiffness * load(bonds.residual[b]) -
-              QJ.row[0][3] * load(bonds.residual[bonds.reverse[b]]));
+        f += weight[b] * (own_stiffness * load(residual[b]) -
+                          QJ.row[0][3] * load(residual[reverse[b]]));
     }
     f[3] = 0.;
     nodal_state.force[i] = f;
