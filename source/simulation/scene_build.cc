@@ -108,6 +108,8 @@ void Scene::build_materials()
   {
     const Entered entered(prm, "Materials", name);
     material_by_name[name] = Material::make(prm, "Materials/" + name);
+    for (const std::string &warning : material_by_name[name]->warnings)
+      warnings.push_back(warning);
   }
 }
 
@@ -154,6 +156,14 @@ void Scene::build_bodies()
 
     if (prm.get("Discretization") == "SPG")
     {
+      if (material->second->needs_deformation_gradient() ||
+          material->second->stiffens())
+        throw InputError(path + "/Material",
+                         "\"" + prm.get("Material") +
+                             "\" has a law or equation of state whose needs "
+                             "(deformation gradient, viscous pressure, "
+                             "stiffening) only FEM bodies serve; choose "
+                             "another material or Discretization = FEM");
       SpgOptions options = SpgOptions::parse(prm);
       options.initial_velocity = get_vector(prm, "Initial velocity");
       bodies.push_back(std::make_unique<SpgBody>(

@@ -18,6 +18,12 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Hourglass coefficient", "0.1",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Usually 0.03 to 0.15.");
+  prm.declare_entry(
+      "Objective rate", "Jaumann",
+      dealii::Patterns::Selection("Jaumann|Green-Naghdi"),
+      "Rate of the stress: with the spin of the velocity gradient, or with "
+      "that of the rotation R of F = R U, which does not oscillate in large "
+      "elastic shear.");
   prm.declare_entry("Linear bulk viscosity", "0.06",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
@@ -32,6 +38,9 @@ FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
   o.hourglass = prm.get("Hourglass control") == "viscous"
                     ? Hourglass::viscous
                     : Hourglass::stiffness;
+  o.objective_rate = prm.get("Objective rate") == "Jaumann"
+                         ? ObjectiveRate::jaumann
+                         : ObjectiveRate::green_naghdi;
   o.hourglass_coefficient = get_quantity(prm, "Hourglass coefficient");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
@@ -172,6 +181,8 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   clamped.erase(std::unique(clamped.begin(), clamped.end()), clamped.end());
 
   gradient.assign(n, Mat::identity());
+  if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
+    polar_rotation.assign(n, Mat::identity());
   stress_data.assign(6 * n, 0.);
   state_data.resize(n_states * n);
   std::size_t s = 0;
@@ -278,6 +289,7 @@ void FemBody::visit_state(StateVisitor &visitor)
   visit("force", nodal_state.force);
   visit("inertia", nodal_state.inertia);
   visit("gradient", gradient);
+  visit("polar rotation", polar_rotation);
   visit("hourglass modes", hourglass_modes);
   visit("viscous pressure", viscous_pressure);
   visit("stress", stress_data);

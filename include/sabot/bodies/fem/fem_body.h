@@ -23,7 +23,13 @@ struct FemOptions
     viscous,
     stiffness
   };
+  enum class ObjectiveRate
+  {
+    jaumann,
+    green_naghdi
+  };
   Hourglass hourglass = Hourglass::viscous;
+  ObjectiveRate objective_rate = ObjectiveRate::jaumann;
   double hourglass_coefficient = 0.1;
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
@@ -91,15 +97,19 @@ public:
 private:
   void kinematics(const std::size_t begin, const std::size_t end,
                   const double dt);
+  /** Replace the spin increments by those of R, F = R U. */
+  void polar_spin(const std::size_t begin, const std::size_t end);
   void stresses(const std::size_t begin, const std::size_t end,
                 const double dt);
+  /** The step of cells that are stiffer than at rest. */
+  void shorten_step(const std::size_t begin, const std::size_t end);
   void scatter_forces(const std::size_t begin, const std::size_t end,
                       const double dt);
   /** 2 / omega without viscosity [s]; @p thickness: smallest dimension [m]. */
   double cell_stable_step(const std::size_t cell, const Mat &F_inverse,
                           const double J, double &thickness) const;
 
-  static constexpr std::size_t batch_size = 64;
+  static constexpr std::size_t batch_size = max_batch_points;
   /** Reference data of a cell, read once per step in this order. */
   struct CellGeometry
   {
@@ -127,6 +137,7 @@ private:
   AlignedVector<CellGeometry> geometry;
   AlignedVector<HourglassModes> hourglass_modes;
   AlignedVector<Mat> gradient;          // F
+  AlignedVector<Mat> polar_rotation;    // R, for the Green-Naghdi rate only
   std::vector<double> viscous_pressure; // of the last step [Pa]
   std::vector<double> volume;           // V_0 [m^3]
   std::vector<GlobalIndex> cell_id;
@@ -146,6 +157,10 @@ private:
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
+    double stable_step[batch_size];
+    // For materials that need them
+    double mean_viscous_pressure[batch_size], stiffening[batch_size];
+    double deformation_gradient[9][batch_size];
     Mat inverse_transposed[batch_size];
   };
   Batch batch;
