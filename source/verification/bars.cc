@@ -57,9 +57,10 @@ std::vector<Check> saint_venant()
     FemOptions options;
     if (side < 0)
       options.initial_velocity = {{v, 0., 0.}};
-    world.bodies.push_back(std::make_unique<FemBody>(
+    world.bodies.push_back(std::make_unique<DrivenFemBody>(
         side < 0 ? "striker" : "bar", world.bodies.size(),
-        make_bar(side < 0 ? -length : 0., n, h), elastic(0.), options));
+        make_bar(side < 0 ? -length : 0., n, h), elastic(0.), options,
+        [](NodalState &, const double) {}));
   }
   auto contact = std::make_unique<Contact>(
       "contact", world.pointers(),

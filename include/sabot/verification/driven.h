@@ -7,7 +7,9 @@
 
 namespace sabot
 {
-/** Hexahedra whose velocities a problem prescribes, some or all. */
+/** Hexahedra whose velocities a problem prescribes, some or all, and that
+    touch others with their ends across x only: nodes on the rim of two equal
+    cross-sections would otherwise be nearest to the sides. */
 class DrivenFemBody : public FemBody
 {
 public:
@@ -22,6 +24,25 @@ public:
   {
     FemBody::impose_velocities(time);
     drive(nodes(), time);
+  }
+  ContactSurface contact_surface() const override
+  {
+    ContactSurface surface = FemBody::contact_surface();
+    const auto &X = nodes().reference_position;
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    {
+      const auto &face = surface.faces[f];
+      const double x = X[face[0]][0], tolerance = 1e-6 * surface.spacing;
+      if (std::abs(X[face[1]][0] - x) > tolerance ||
+          std::abs(X[face[2]][0] - x) > tolerance)
+        continue;
+      surface.faces[kept] = face;
+      surface.face_id[kept++] = surface.face_id[f];
+    }
+    surface.faces.resize(kept);
+    surface.face_id.resize(kept);
+    return surface;
   }
 
 private:
