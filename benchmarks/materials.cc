@@ -1,5 +1,5 @@
 // Cost of one update of each law per point, plastic flow throughout:
-// `ninja benchmarks && build/release/benchmarks`; items_per_second is points.
+// `ninja benchmarks && build/release/benchmarks`.
 #include "sabot/kernels/stress_update.h"
 #include "sabot/materials/laws.h"
 
@@ -67,9 +67,9 @@ void run(benchmark::State &bench, const Make &make, const bool gruneisen)
     if (++step % 2000 == 0)
       states = initial;
   }
-  bench.counters["ns/point"] = benchmark::Counter(
-      1e-9 * n, benchmark::Counter::kIsIterationInvariantRate |
-                    benchmark::Counter::kInvert);
+  bench.counters["per point [s]"] =
+      benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate |
+                                benchmark::Counter::kInvert);
 }
 
 template <typename Law>

@@ -8,9 +8,11 @@ namespace sabot
 {
 JohnsonCook::JohnsonCook(const ElasticConstants &elastic,
                          const JohnsonCookParameters &p, const Eos &eos)
-    : RateDependentPlasticity(
-          elastic, JohnsonCookFlow{p},
-          {p.initial_temperature, p.specific_heat, p.taylor_quinney}, eos)
+    : RateDependentPlasticity(elastic, JohnsonCookFlow{p},
+                              {p.initial_temperature, p.specific_heat,
+                               p.taylor_quinney, p.conductivity,
+                               p.thermal_expansion},
+                              eos)
 {
 }
 
@@ -45,6 +47,7 @@ void JohnsonCook::update_deviator(const MaterialBatch &b,
 void JohnsonCook::after_pressure(const MaterialBatch &b,
                                  const Scratch &old_strain) const
 {
+  RateDependentPlasticity::after_pressure(b, old_strain);
   if (!flow.p.has_damage)
     return;
   const double *const eps = b.state(0), *const temperature = b.state(1);
@@ -103,7 +106,7 @@ void declare(dealii::ParameterHandler &prm)
 }
 
 JohnsonCookParameters parse(dealii::ParameterHandler &prm,
-                            const std::string &path)
+                            const std::string &path, const EquationOfState &eos)
 {
   JohnsonCookParameters p;
   p.A = get_quantity(prm, "Initial yield stress");
@@ -114,10 +117,12 @@ JohnsonCookParameters parse(dealii::ParameterHandler &prm,
   p.reference_strain_rate = get_quantity(prm, "Reference strain rate");
   p.room_temperature = get_quantity(prm, "Room temperature");
   p.melt_temperature = get_quantity(prm, "Melt temperature");
-  const ThermalParameters thermal = ThermalParameters::parse(prm);
+  const ThermalParameters thermal = ThermalParameters::parse(prm, path, eos);
   p.initial_temperature = thermal.initial_temperature;
   p.specific_heat = thermal.specific_heat;
   p.taylor_quinney = thermal.taylor_quinney;
+  p.conductivity = thermal.conductivity;
+  p.thermal_expansion = thermal.expansion;
   p.has_damage = prm.get_bool("Damage");
   for (int i = 0; i < 5; ++i)
     p.D[i] = get_quantity(prm, damage_names[i]);
@@ -148,7 +153,7 @@ const RegisterMaterial registered(
         const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
        prm.enter_subsection("Johnson-Cook");
-       const JohnsonCookParameters p = parse(prm, path + "/Johnson-Cook");
+       const JohnsonCookParameters p = parse(prm, path + "/Johnson-Cook", *eos);
        prm.leave_subsection();
        return std::make_unique<JohnsonCook>(elastic, p, eos);
      }});

@@ -1,5 +1,6 @@
 #include "sabot/materials/rate_dependent.h"
 
+#include "sabot/base/error.h"
 #include "sabot/base/quantity.h"
 
 namespace sabot
@@ -17,12 +18,28 @@ void ThermalParameters::declare_parameters(
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Part of the plastic work that becomes heat; 0 switches "
                     "adiabatic heating off.");
+  prm.declare_entry("Thermal conductivity", "0 W/m/K",
+                    QuantityPattern(Dimension::conductivity, 0., 1e5),
+                    "For FEM bodies with Heat conduction = true.");
+  prm.declare_entry("Thermal expansion", "0 1/K",
+                    QuantityPattern(Dimension::inverse_temperature, 0., 1e-2),
+                    "Linear coefficient: the volume is free of pressure at "
+                    "J = exp(3 alpha (T - initial temperature)).");
 }
 
-ThermalParameters ThermalParameters::parse(const dealii::ParameterHandler &prm)
+ThermalParameters ThermalParameters::parse(const dealii::ParameterHandler &prm,
+                                           const std::string &path,
+                                           const EquationOfState &eos)
 {
-  return {get_quantity(prm, "Initial temperature"),
-          get_quantity(prm, "Specific heat"),
-          get_quantity(prm, "Taylor-Quinney fraction")};
+  const ThermalParameters p = {get_quantity(prm, "Initial temperature"),
+                               get_quantity(prm, "Specific heat"),
+                               get_quantity(prm, "Taylor-Quinney fraction"),
+                               get_quantity(prm, "Thermal conductivity"),
+                               get_quantity(prm, "Thermal expansion")};
+  if (p.expansion > 0. && !eos.state_variables().empty())
+    throw InputError(path + "/Thermal expansion",
+                     "must be 0 with this equation of state, whose internal "
+                     "energy expands the material already");
+  return p;
 }
 } // namespace sabot

@@ -52,7 +52,8 @@ std::unique_ptr<Material> make(dealii::ParameterHandler &prm,
   p.melt_temperature = get_quantity(prm, "Melt temperature");
   p.gruneisen = get_quantity(prm, "Melt Gruneisen coefficient");
   p.melt_correction = get_quantity(prm, "Melt volume correction");
-  const ThermalParameters thermal = ThermalParameters::parse(prm);
+  const ThermalParameters thermal =
+      ThermalParameters::parse(prm, path + "/Steinberg-Guinan", *eos);
   prm.leave_subsection();
   const std::string here = path + "/Steinberg-Guinan/";
   if (p.yield_stress <= 0.)

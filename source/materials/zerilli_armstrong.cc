@@ -50,7 +50,8 @@ make(dealii::ParameterHandler &prm, const std::string &path,
     p.n = get_quantity(prm, "Hardening exponent");
   }
   p.melt_temperature = get_quantity(prm, "Melt temperature");
-  const ThermalParameters thermal = ThermalParameters::parse(prm);
+  const ThermalParameters thermal =
+      ThermalParameters::parse(prm, path + "/" + name, *eos);
   prm.leave_subsection();
   if (p.C0 <= 0.)
     throw InputError(path + "/" + name + "/C0",

@@ -16,6 +16,8 @@ struct JohnsonCookParameters
   double melt_temperature = 1000.;   // [K]
   double specific_heat = 1000.;      // [J/kg/K]
   double taylor_quinney = 0.9;       // 0 switches adiabatic heating off
+  double conductivity = 0.;          // [W/m/K]
+  double thermal_expansion = 0.;     // linear [1/K]
   bool has_damage = false;
   double D[5] = {0., 0., 0., 0., 0.};
   double smallest_fracture_strain = 0.01;

@@ -79,6 +79,10 @@ public:
   /** Stress and state at the end of the step; at most max_batch_points. */
   virtual void update(const MaterialBatch &batch) const = 0;
 
+  /** Of laws with a state "temperature"; 0 elsewhere. */
+  virtual double specific_heat() const { return 0.; } // [J/kg/K]
+  virtual double conductivity() const { return 0.; }  // [W/m/K]
+
   // Entries of MaterialBatch that a body fills only for laws that need them.
   virtual bool needs_viscous_pressure() const { return false; }
   virtual bool needs_deformation_gradient() const { return false; }

@@ -14,10 +14,16 @@ struct ThermalParameters
   double initial_temperature = 294.; // [K]
   double specific_heat = 1000.;      // [J/kg/K]
   double taylor_quinney = 0.9;       // eta; 0 switches heating off
+  double conductivity = 0.;          // [W/m/K], for bodies that conduct
+  double expansion = 0.;             // linear, [1/K]; p += 3 K alpha (T - T_0)
 
   static void declare_parameters(dealii::ParameterHandler &prm,
                                  const std::string &initial_temperature);
-  static ThermalParameters parse(const dealii::ParameterHandler &prm);
+  /** @p path of the law; refuses expansion beside an equation of state that
+      has a thermal pressure of its own. */
+  static ThermalParameters parse(const dealii::ParameterHandler &prm,
+                                 const std::string &path,
+                                 const EquationOfState &eos);
 };
 
 /**
@@ -43,6 +49,8 @@ public:
       : ElasticBase(elastic, eos), flow(flow), thermal(thermal)
   {
   }
+  double specific_heat() const override { return thermal.specific_heat; }
+  double conductivity() const override { return thermal.conductivity; }
   bool stiffens() const override
   {
     return !Flow::constant_shear_modulus || eos->stiffens();
@@ -63,22 +71,24 @@ protected:
   const ThermalParameters thermal;
 
 private:
+  /** @p yield, @p slope: flow stress and its slope at @p eps and rate 0. */
   double increment(const typename Flow::Point &point, const double q,
                    const double shear_modulus, const double eps,
-                   const double dt) const;
+                   const double dt, const double yield, double slope) const;
 };
 
 template <typename Flow>
 double RateDependentPlasticity<Flow>::increment(
     const typename Flow::Point &point, const double q,
-    const double shear_modulus, const double eps, const double dt) const
+    const double shear_modulus, const double eps, const double dt,
+    const double yield, double slope) const
 {
   // Root of q - 3 G d - sigma_y(eps + d, d/dt), decreasing in d: Newton inside
   // a bracket that always holds the root.
   const double three_G = 3. * shear_modulus;
-  double low = 0., high = q / three_G, slope;
-  double d =
-      std::min(high, (q - flow.stress(point, eps, 0., dt, slope)) / three_G);
+  double low = 0., high = q / three_G;
+  // Power laws have no useful slope at strain 0.
+  double d = (q - yield) / (three_G + (eps > 1e-8 ? slope : 0.));
   for (int iteration = 0; iteration < 100; ++iteration)
   {
     const double f =
@@ -86,8 +96,13 @@ double RateDependentPlasticity<Flow>::increment(
     (f > 0. ? low : high) = d;
     if (std::abs(f) <= 1e-12 * q || high - low <= 1e-15 * high)
       break;
-    const double next = d + f / (three_G + slope);
-    d = next > low && next < high ? next : 0.5 * (low + high);
+    const double next = d + f / (three_G + slope), change = std::abs(next - d);
+    const bool trusted = next > low && next < high;
+    // Convergence is quadratic: what remains is below 1e-8 of the stress.
+    const bool done = trusted && change <= 1e-4 * d;
+    d = trusted ? next : 0.5 * (low + high);
+    if (done)
+      break;
   }
   return d;
 }
@@ -131,11 +146,13 @@ void RateDependentPlasticity<Flow>::update_deviator(const MaterialBatch &b,
     if (q <= flow.lower_bound(point))
       continue;
     double slope;
-    if (q <= flow.stress(point, eps[k], 0., b.dt, slope))
+    const double yield = flow.stress(point, eps[k], 0., b.dt, slope);
+    if (q <= yield)
       continue;
     // Without shear modulus there is nothing but to let go.
     const double d =
-        modulus > 0. ? increment(point, q, modulus, eps[k], b.dt) : 0.;
+        modulus > 0. ? increment(point, q, modulus, eps[k], b.dt, yield, slope)
+                     : 0.;
     const double theta =
         modulus > 0. ? std::max(0., 1. - 3. * modulus * d / q) : 0.;
     for (int c = 0; c < 6; ++c)
@@ -152,10 +169,18 @@ template <typename Flow>
 void RateDependentPlasticity<Flow>::after_pressure(const MaterialBatch &b,
                                                    const Scratch &) const
 {
-  if (Flow::constant_shear_modulus || !b.stiffening)
-    return;
   const double K = bulk_modulus(), rest = K + 4. / 3. * G;
   const double *const temperature = b.state(1);
+  if (thermal.expansion > 0.)
+    for (std::size_t k = 0; k < b.n; ++k)
+    {
+      const double pressure = 3. * K * thermal.expansion *
+                              (temperature[k] - thermal.initial_temperature);
+      for (int c = 0; c < 3; ++c)
+        b.stress[c][k] -= pressure;
+    }
+  if (Flow::constant_shear_modulus || !b.stiffening)
+    return;
   for (std::size_t k = 0; k < b.n; ++k)
   {
     const double pressure =

@@ -18,6 +18,12 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Hourglass coefficient", "0.1",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Usually 0.03 to 0.15.");
+  prm.declare_entry("Heat conduction", "false", dealii::Patterns::Bool(),
+                    "Implicit conduction inside the body, faces insulated. "
+                    "Needs a law with temperature and conductivity.");
+  prm.declare_entry("Conduction interval", "1 us",
+                    QuantityPattern(Dimension::time, 0., 1e3),
+                    "Time between conduction steps.");
   prm.declare_entry(
       "Objective rate", "Jaumann",
       dealii::Patterns::Selection("Jaumann|Green-Naghdi"),
@@ -38,6 +44,8 @@ FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
   o.hourglass = prm.get("Hourglass control") == "viscous"
                     ? Hourglass::viscous
                     : Hourglass::stiffness;
+  o.conducts_heat = prm.get_bool("Heat conduction");
+  o.conduction_interval = get_quantity(prm, "Conduction interval");
   o.objective_rate = prm.get("Objective rate") == "Jaumann"
                          ? ObjectiveRate::jaumann
                          : ObjectiveRate::green_naghdi;
@@ -55,6 +63,11 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
       state_variables(this->material->state_variables()),
       n_states(count_states(state_variables))
 {
+  if (options.conducts_heat && !(this->material->conductivity() > 0.))
+    throw InputError("Bodies/" + name + "/Heat conduction",
+                     "the body's material has no temperature or no thermal "
+                     "conductivity; set \"Thermal conductivity\" of a law "
+                     "with temperature, for example 167 W/m/K");
 }
 
 void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -194,6 +207,23 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   hourglass_energy.assign(n, 0.);
   plastic_work.assign(n, 0.);
   mesh = HexMesh();
+  if (options.conducts_heat)
+  {
+    std::vector<double> capacity = volume;
+    for (double &c : capacity)
+      c *= material->density() * material->specific_heat();
+    heat = std::make_unique<HeatConduction>(material->conductivity(),
+                                            connectivity, capacity, nodal_state,
+                                            node_exchange, communicator);
+  }
+}
+
+void FemBody::conduct_heat(const double time)
+{
+  // Ghost positions are those of the last force computation: now.
+  heat->advance(nodal_state, time - last_conduction,
+                state_array("temperature"));
+  last_conduction = time;
 }
 
 void FemBody::impose_velocities(const double)
@@ -290,6 +320,11 @@ void FemBody::visit_state(StateVisitor &visitor)
   visit("inertia", nodal_state.inertia);
   visit("gradient", gradient);
   visit("polar rotation", polar_rotation);
+  if (heat)
+  {
+    heat->visit_state(visitor);
+    visitor.visit("last conduction", &last_conduction, 1, sizeof(double));
+  }
   visit("hourglass modes", hourglass_modes);
   visit("viscous pressure", viscous_pressure);
   visit("stress", stress_data);

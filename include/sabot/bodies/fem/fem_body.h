@@ -4,6 +4,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/fem/heat_conduction.h"
 #include "sabot/geometry/hex_mesh.h"
 #include "sabot/materials/material.h"
 
@@ -35,6 +36,8 @@ struct FemOptions
   double bulk_viscosity_quadratic = 1.5;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   std::vector<unsigned int> clamped_boundary_ids;
+  bool conducts_heat = false;
+  double conduction_interval = 1e-6; // [s]
 
   static void declare_parameters(dealii::ParameterHandler &prm);
   static FemOptions parse(const dealii::ParameterHandler &prm);
@@ -73,7 +76,11 @@ public:
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
-  void update_topology(const unsigned int, const double) override {}
+  void update_topology(const unsigned int, const double time) override
+  {
+    if (heat && time >= last_conduction + options.conduction_interval)
+      conduct_heat(time);
+  }
 
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;
@@ -93,8 +100,14 @@ public:
     return stress_data[component * n_local_cells() + cell];
   }
   const double *state_array(const std::string &name) const;
+  double *state_array(const std::string &name)
+  {
+    return const_cast<double *>(
+        static_cast<const FemBody &>(*this).state_array(name));
+  }
 
 private:
+  void conduct_heat(const double time);
   void kinematics(const std::size_t begin, const std::size_t end,
                   const double dt);
   /** Replace the spin increments by those of R, F = R U. */
@@ -148,6 +161,8 @@ private:
   std::vector<std::array<std::size_t, 4>> boundary_faces;
   std::vector<GlobalIndex> boundary_face_id;
   double typical_spacing = 0.;
+  std::unique_ptr<HeatConduction> heat; // only where asked for
+  double last_conduction = 0.;          // [s]
   double current_stable_step = 0.;
   GlobalIndex stable_step_item = -1;
 
