@@ -61,14 +61,17 @@ Slab slab(const int n)
 
 std::vector<Check> conduction()
 {
-  const Slab coarse = slab(8), middle = slab(16), fine = slab(32);
-  return {{"error, 32 cells", 0., fine.error, 1e-3, "1",
+  const Slab coarse = slab(8), middle = slab(16), fine = slab(32),
+             finest = slab(64);
+  return {{"error, 64 cells", 0., finest.error, 1e-3, "1",
            "insulated slab, exp(-kappa pi^2 t/L^2)"},
           {"order in space, 8 to 16 cells", 2.,
            std::log2(coarse.error / middle.error), 0.1, "1", "second order"},
           {"order in space, 16 to 32 cells", 2.,
            std::log2(middle.error / fine.error), 0.1, "1", "second order"},
-          {"mean temperature change", 0., fine.heat_change, 1e-9, "K",
+          {"order in space, 32 to 64 cells", 2.,
+           std::log2(fine.error / finest.error), 0.1, "1", "second order"},
+          {"mean temperature change", 0., finest.heat_change, 1e-9, "K",
            "no heat is lost"}};
 }
 

@@ -271,7 +271,10 @@ Measures FemBody::measure() const
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"hourglass energy", "J", hourglass.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
-  if (temperature)
+  // Not from the array, which a rank without cells does not have.
+  if (std::any_of(state_variables.begin(), state_variables.end(),
+                  [](const StateVariable &v)
+                  { return v.name == "temperature"; }))
     measures.push_back({"temperature max", "K", top[1]});
   return measures;
 }
