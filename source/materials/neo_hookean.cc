@@ -19,43 +19,40 @@ inline void left_cauchy_green(const double *const *F, const std::size_t k,
 }
 } // namespace
 
-void NeoHookean::update_deviator(const MaterialBatch &batch, Scratch &) const
+void NeoHookean::update_deviator(const MaterialBatch &batch,
+                                 Scratch &shear_ratio) const
 {
   for (std::size_t k = 0; k < batch.n; ++k)
   {
     double b[6];
     left_cauchy_green(batch.deformation_gradient, k, b);
     const double J = batch.jacobian[k], r = 1. / std::cbrt(J);
-    const double factor = G * r * r / J, mean = (b[0] + b[1] + b[2]) / 3.;
+    const double factor = r * r / J, mean = (b[0] + b[1] + b[2]) / 3.;
     for (int c = 0; c < 6; ++c)
-      batch.stress[c][k] = factor * (b[c] - (c < 3 ? mean : 0.));
+      batch.stress[c][k] = G * factor * (b[c] - (c < 3 ? mean : 0.));
     batch.return_factor[k] = 1.;
     batch.plastic_work[k] = 0.;
+    // The shear stiffness grows with the largest eigenvalue of b, which the
+    // row sums bound (Gershgorin).
+    const double xy = std::abs(b[3]), yz = std::abs(b[4]), xz = std::abs(b[5]);
+    shear_ratio[k] =
+        factor * std::max({b[0] + xy + xz, b[1] + xy + yz, b[2] + yz + xz});
   }
 }
 
 void NeoHookean::after_pressure(const MaterialBatch &batch,
-                                const Scratch &) const
+                                const Scratch &shear_ratio) const
 {
   if (!batch.stiffening)
     return;
-  // The shear part grows with the largest eigenvalue of b, which the row sums
-  // bound (Gershgorin).
   const double K = bulk_modulus(), shear = 4. / 3. * G;
   const bool has_bulk = eos->stiffens();
   for (std::size_t k = 0; k < batch.n; ++k)
   {
-    double b[6];
-    left_cauchy_green(batch.deformation_gradient, k, b);
-    const double largest = std::max({b[0] + std::abs(b[3]) + std::abs(b[5]),
-                                     b[1] + std::abs(b[3]) + std::abs(b[4]),
-                                     b[2] + std::abs(b[4]) + std::abs(b[5])});
-    const double J = batch.jacobian[k], r = 1. / std::cbrt(J);
     const double bulk =
         has_bulk ? batch.stiffening[k] * (K + shear) - shear : K;
-    // The body scales both moduli by one factor; take the larger ratio.
-    const double ratio = std::max(1., largest * r * r / J);
-    batch.stiffening[k] = std::max(ratio, std::max(bulk / K, 1.));
+    // The body scales both moduli by one factor: the larger.
+    batch.stiffening[k] = std::max({1., shear_ratio[k], bulk / K});
   }
 }
 
