@@ -12,12 +12,15 @@ inline Mat rotation_of(const Mat &F)
   Mat R = (1. / std::cbrt(determinant(F))) * F;
   for (int iteration = 0; iteration < 30; ++iteration)
   {
-    const Mat next = 0.5 * (R + transpose(inverse(R)));
-    const Mat change = next - R;
+    const Mat cofactor = {{cross(R.row[1], R.row[2]), cross(R.row[2], R.row[0]),
+                           cross(R.row[0], R.row[1])}};
+    const double half = 0.5 / dot(R.row[0], cofactor.row[0]);
+    const Mat next = 0.5 * R + half * cofactor, change = next - R;
     R = next;
+    // The next change would be of the order of this one's square.
     if (norm_square(change.row[0]) + norm_square(change.row[1]) +
             norm_square(change.row[2]) <
-        1e-28)
+        1e-15)
       break;
   }
   return R;
