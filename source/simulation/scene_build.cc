@@ -108,6 +108,8 @@ void Scene::build_materials()
   {
     const Entered entered(prm, "Materials", name);
     material_by_name[name] = Material::make(prm, "Materials/" + name);
+    for (const std::string &warning : material_by_name[name]->warnings)
+      warnings.push_back(warning);
   }
 }
 

@@ -217,7 +217,18 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
   const auto read = [&](const std::string &path, const std::string &standard)
   { return file == nullptr ? standard : file->value(path, standard); };
   each("Materials", {"<name>"},
-       [&](const auto &, const auto &) { Material::declare_parameters(prm); });
+       [&](const std::string &path, const auto &)
+       {
+         // The manual shows all laws, a scene may set the chosen one's only.
+         if (file == nullptr)
+           return Material::declare_parameters(prm);
+         const std::string model = read(path + "/Model", "Elastic"),
+                           equation_of_state = read(path + "/Equation of state",
+                                                    "Bulk modulus");
+         Material::check_subsections(path, file->subsections(path), model,
+                                     equation_of_state);
+         Material::declare_parameters(prm, model, equation_of_state);
+       });
   each("Bodies", {"<FEM box>", "<FEM cylinder>", "<SPG box>"},
        [&](const std::string &path, const std::string &name)
        {

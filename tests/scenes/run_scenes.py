@@ -73,6 +73,22 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
+    def test_materials_are_the_same_on_1_2_and_3_ranks(self):
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("materials%d" % ranks)
+            done = sabot("run", os.path.join(SOURCE,
+                                             "tests/scenes/materials.prm"),
+                         "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        self.assertLess(r["energy_residual_max"], 0.02)
+        self.assertGreater(r["bodies"]["flyer"]["plastic_strain_max"], 0.05)
+
     def test_taylor_bar(self):
         out = folder("taylor")
         done = sabot("run", os.path.join(SOURCE, "prm/taylor/symmetric.prm"),
@@ -153,6 +169,8 @@ class Scenes(unittest.TestCase):
             ("Quantities/speed/Body=brick", "no body is called \"brick\""),
             ("End time=0", "a time"),
             ("Nonsense=1", "unknown entry"),
+            ("Materials/metal/Johnson-Cook/D1=1", "would have no effect"),
+            ("Materials/metal/Model=Neo-Hookean", "FEM"),
         )
         for override, expected in cases:
             out = folder("bad")

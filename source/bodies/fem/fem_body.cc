@@ -18,6 +18,18 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Hourglass coefficient", "0.1",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Usually 0.03 to 0.15.");
+  prm.declare_entry("Heat conduction", "false", dealii::Patterns::Bool(),
+                    "Implicit conduction inside the body, faces insulated. "
+                    "Needs a law with temperature and conductivity.");
+  prm.declare_entry("Conduction interval", "1 us",
+                    QuantityPattern(Dimension::time, 0., 1e3),
+                    "Time between conduction steps.");
+  prm.declare_entry(
+      "Objective rate", "Jaumann",
+      dealii::Patterns::Selection("Jaumann|Green-Naghdi"),
+      "Rate of the stress: with the spin of the velocity gradient, or with "
+      "that of the rotation R of F = R U, which does not oscillate in large "
+      "elastic shear.");
   prm.declare_entry("Linear bulk viscosity", "0.06",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
@@ -32,6 +44,11 @@ FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
   o.hourglass = prm.get("Hourglass control") == "viscous"
                     ? Hourglass::viscous
                     : Hourglass::stiffness;
+  o.conducts_heat = prm.get_bool("Heat conduction");
+  o.conduction_interval = get_quantity(prm, "Conduction interval");
+  o.objective_rate = prm.get("Objective rate") == "Jaumann"
+                         ? ObjectiveRate::jaumann
+                         : ObjectiveRate::green_naghdi;
   o.hourglass_coefficient = get_quantity(prm, "Hourglass coefficient");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
@@ -46,6 +63,11 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
       state_variables(this->material->state_variables()),
       n_states(count_states(state_variables))
 {
+  if (options.conducts_heat && !(this->material->conductivity() > 0.))
+    throw InputError("Bodies/" + name + "/Heat conduction",
+                     "the body's material has no temperature or no thermal "
+                     "conductivity; set \"Thermal conductivity\" of a law "
+                     "with temperature, for example 167 W/m/K");
 }
 
 void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -172,6 +194,8 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   clamped.erase(std::unique(clamped.begin(), clamped.end()), clamped.end());
 
   gradient.assign(n, Mat::identity());
+  if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
+    polar_rotation.assign(n, Mat::identity());
   stress_data.assign(6 * n, 0.);
   state_data.resize(n_states * n);
   std::size_t s = 0;
@@ -183,6 +207,23 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   hourglass_energy.assign(n, 0.);
   plastic_work.assign(n, 0.);
   mesh = HexMesh();
+  if (options.conducts_heat)
+  {
+    std::vector<double> capacity = volume;
+    for (double &c : capacity)
+      c *= material->density() * material->specific_heat();
+    heat = std::make_unique<HeatConduction>(material->conductivity(),
+                                            connectivity, capacity, nodal_state,
+                                            node_exchange, communicator);
+  }
+}
+
+void FemBody::conduct_heat(const double time)
+{
+  // Ghost positions are those of the last force computation: now.
+  heat->advance(nodal_state, time - last_conduction,
+                state_array("temperature"));
+  last_conduction = time;
 }
 
 void FemBody::impose_velocities(const double)
@@ -230,7 +271,10 @@ Measures FemBody::measure() const
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"hourglass energy", "J", hourglass.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
-  if (temperature)
+  // Not from the array, which a rank without cells does not have.
+  if (std::any_of(state_variables.begin(), state_variables.end(),
+                  [](const StateVariable &v)
+                  { return v.name == "temperature"; }))
     measures.push_back({"temperature max", "K", top[1]});
   return measures;
 }
@@ -278,6 +322,12 @@ void FemBody::visit_state(StateVisitor &visitor)
   visit("force", nodal_state.force);
   visit("inertia", nodal_state.inertia);
   visit("gradient", gradient);
+  visit("polar rotation", polar_rotation);
+  if (heat)
+  {
+    heat->visit_state(visitor);
+    visitor.visit("last conduction", &last_conduction, 1, sizeof(double));
+  }
   visit("hourglass modes", hourglass_modes);
   visit("viscous pressure", viscous_pressure);
   visit("stress", stress_data);

@@ -1,4 +1,5 @@
 #include "sabot/bodies/fem/fem_body.h"
+#include "sabot/kernels/polar.h"
 #include "sabot/kernels/stress_update.h"
 
 #include <algorithm>
@@ -57,6 +58,8 @@ void FemBody::compute_forces(const double /*time*/, const double dt)
   {
     const std::size_t end = std::min(begin + batch_size, n);
     kinematics(begin, end, dt);
+    if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
+      polar_spin(begin, end);
     if (dt > 0.)
       stresses(begin, end, dt);
     scatter_forces(begin, end, dt);
@@ -115,6 +118,35 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
         options.bulk_viscosity_linear +
         options.bulk_viscosity_quadratic * thickness * std::max(0., -rate) / c;
     const double step = elastic_step * (std::sqrt(1. + xi * xi) - xi);
+    batch.stable_step[k] = step;
+    if (step < current_stable_step)
+    {
+      current_stable_step = step;
+      stable_step_item = cell_id[e];
+    }
+  }
+}
+
+void FemBody::polar_spin(const std::size_t begin, const std::size_t end)
+{
+  for (std::size_t e = begin; e < end; ++e)
+  {
+    const Mat R = rotation_of(gradient[e]);
+    double spin[3];
+    cayley_spin(R * transpose(polar_rotation[e]), spin);
+    for (int c = 0; c < 3; ++c)
+      batch.spin[c][e - begin] = spin[c];
+    polar_rotation[e] = R;
+  }
+}
+
+void FemBody::shorten_step(const std::size_t begin, const std::size_t end)
+{
+  for (std::size_t e = begin; e < end; ++e)
+  {
+    const std::size_t k = e - begin;
+    const double step =
+        batch.stable_step[k] / std::sqrt(std::max(1., batch.stiffening[k]));
     if (step < current_stable_step)
     {
       current_stable_step = step;
@@ -179,7 +211,25 @@ void FemBody::stresses(const std::size_t begin, const std::size_t end,
   points.extra_square = no_extra;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
+  if (material->needs_viscous_pressure())
+  {
+    for (std::size_t k = 0; k < m; ++k)
+      batch.mean_viscous_pressure[k] =
+          0.5 * (viscous_pressure[begin + k] + batch.viscous_pressure[k]);
+    points.viscous_pressure = batch.mean_viscous_pressure;
+  }
+  if (material->needs_deformation_gradient())
+    for (int c = 0; c < 9; ++c)
+    {
+      for (std::size_t k = 0; k < m; ++k)
+        batch.deformation_gradient[c][k] = gradient[begin + k](c / 3, c % 3);
+      points.deformation_gradient[c] = batch.deformation_gradient[c];
+    }
+  if (material->stiffens())
+    points.stiffening = batch.stiffening;
   material->update(points);
+  if (material->stiffens())
+    shorten_step(begin, end);
   half_work(m, now, strain, batch.half_volume, &internal_energy[begin]);
   for (std::size_t k = 0; k < m; ++k)
   {

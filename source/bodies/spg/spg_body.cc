@@ -96,6 +96,8 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
       std::fill_n(&state_data[s * n], n, variable.initial_value);
   batch_states.resize(n_states);
   viscous_pressure.assign(n, 0.);
+  if (material->stiffens())
+    stiffening.assign(n, 1.);
   internal_energy.assign(n, 0.);
   bond_work.assign(n, 0.);
   plastic_work.assign(n, 0.);

@@ -125,10 +125,13 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     batch.nominal[k] = transpose(F_inverse);
     batch.jacobian[k] = V / V0 * J;
     batch.half_volume[k] = 0.25 * V * (J + J_old);
-    const double stiffening = norm_square(F_inverse.row[0]) +
+    const double compression = norm_square(F_inverse.row[0]) +
                               norm_square(F_inverse.row[1]) +
                               norm_square(F_inverse.row[2]) - 2.;
-    double step = update_stable_step[i] / std::sqrt(std::max(1., stiffening));
+    double step =
+        update_stable_step[i] / std::sqrt(std::max(1., compression));
+    if (!stiffening.empty())
+      step /= std::sqrt(std::max(1., stiffening[i]));
     // Bulk viscosity, as for hexahedra; a flattened particle's step tells its
     // smallest dimension.
     const double rate = dt > 0. ? trace(l) / dt : 0.;
@@ -251,6 +254,25 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   points.extra_square = batch.extra_square;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
+  if (material->needs_viscous_pressure())
+  {
+    for (std::size_t k = 0; k < m; ++k)
+      batch.mean_viscous_pressure[k] =
+          0.5 * (viscous_pressure[begin + k] + batch.viscous_pressure[k]);
+    points.viscous_pressure = batch.mean_viscous_pressure;
+  }
+  if (material->needs_deformation_gradient())
+    for (std::size_t k = 0; k < m; ++k)
+    {
+      const Mat F = deformation_gradient(begin + k);
+      for (int c = 0; c < 9; ++c)
+      {
+        batch.deformation_gradient[c][k] = F(c / 3, c % 3);
+        points.deformation_gradient[c] = batch.deformation_gradient[c];
+      }
+    }
+  if (!stiffening.empty())
+    points.stiffening = &stiffening[begin];
   material->update(points);
 
   // A particle that lost a direction carries no tension across the gap.

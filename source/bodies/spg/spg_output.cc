@@ -24,6 +24,9 @@ Measures SpgBody::measure() const
 {
   const double *const eps = state_array("effective plastic strain");
   const double *const temperature = state_array("temperature");
+  bool has_temperature = false; // also on ranks without particles
+  for (const StateVariable &variable : state_variables)
+    has_temperature = has_temperature || variable.name == "temperature";
   ExactSum internal, stabilization, bonds_failed, bonds_all, n_weak, n_isolated,
       fallbacks;
   fallbacks.add(n_fallback);
@@ -56,7 +59,7 @@ Measures SpgBody::measure() const
   measures.push_back({"isolated particles", "1", n_isolated.value()});
   if (options.approximation != SpgOptions::Approximation::least_squares)
     measures.push_back({"approximation fallbacks", "1", fallbacks.value()});
-  if (temperature)
+  if (has_temperature)
     measures.push_back({"temperature max", "K", top[1]});
   return measures;
 }
@@ -127,6 +130,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("stress", stress_data);
   visit("state", state_data);
   visit("viscous pressure", viscous_pressure);
+  visit("stiffening", stiffening);
   visit("internal energy", internal_energy);
   visit("bond work", bond_work);
   visit("residual factor", residual_factor);

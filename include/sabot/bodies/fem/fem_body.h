@@ -4,6 +4,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/fem/heat_conduction.h"
 #include "sabot/geometry/hex_mesh.h"
 #include "sabot/materials/material.h"
 
@@ -23,12 +24,20 @@ struct FemOptions
     viscous,
     stiffness
   };
+  enum class ObjectiveRate
+  {
+    jaumann,
+    green_naghdi
+  };
   Hourglass hourglass = Hourglass::viscous;
+  ObjectiveRate objective_rate = ObjectiveRate::jaumann;
   double hourglass_coefficient = 0.1;
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   std::vector<unsigned int> clamped_boundary_ids;
+  bool conducts_heat = false;
+  double conduction_interval = 1e-6; // [s]
 
   static void declare_parameters(dealii::ParameterHandler &prm);
   static FemOptions parse(const dealii::ParameterHandler &prm);
@@ -67,7 +76,11 @@ public:
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
-  void update_topology(const unsigned int, const double) override {}
+  void update_topology(const unsigned int, const double time) override
+  {
+    if (heat && time >= last_conduction + options.conduction_interval)
+      conduct_heat(time);
+  }
 
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;
@@ -87,19 +100,29 @@ public:
     return stress_data[component * n_local_cells() + cell];
   }
   const double *state_array(const std::string &name) const;
+  double *state_array(const std::string &name)
+  {
+    return const_cast<double *>(
+        static_cast<const FemBody &>(*this).state_array(name));
+  }
 
 private:
+  void conduct_heat(const double time);
   void kinematics(const std::size_t begin, const std::size_t end,
                   const double dt);
+  /** Replace the spin increments by those of R, F = R U. */
+  void polar_spin(const std::size_t begin, const std::size_t end);
   void stresses(const std::size_t begin, const std::size_t end,
                 const double dt);
+  /** The step of cells that are stiffer than at rest. */
+  void shorten_step(const std::size_t begin, const std::size_t end);
   void scatter_forces(const std::size_t begin, const std::size_t end,
                       const double dt);
   /** 2 / omega without viscosity [s]; @p thickness: smallest dimension [m]. */
   double cell_stable_step(const std::size_t cell, const Mat &F_inverse,
                           const double J, double &thickness) const;
 
-  static constexpr std::size_t batch_size = 64;
+  static constexpr std::size_t batch_size = max_batch_points;
   /** Reference data of a cell, read once per step in this order. */
   struct CellGeometry
   {
@@ -127,6 +150,7 @@ private:
   AlignedVector<CellGeometry> geometry;
   AlignedVector<HourglassModes> hourglass_modes;
   AlignedVector<Mat> gradient;          // F
+  AlignedVector<Mat> polar_rotation;    // R, for the Green-Naghdi rate only
   std::vector<double> viscous_pressure; // of the last step [Pa]
   std::vector<double> volume;           // V_0 [m^3]
   std::vector<GlobalIndex> cell_id;
@@ -137,6 +161,8 @@ private:
   std::vector<std::array<std::size_t, 4>> boundary_faces;
   std::vector<GlobalIndex> boundary_face_id;
   double typical_spacing = 0.;
+  std::unique_ptr<HeatConduction> heat; // only where asked for
+  double last_conduction = 0.;          // [s]
   double current_stable_step = 0.;
   GlobalIndex stable_step_item = -1;
 
@@ -146,6 +172,10 @@ private:
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
+    double stable_step[batch_size];
+    // For materials that need them
+    double mean_viscous_pressure[batch_size], stiffening[batch_size];
+    double deformation_gradient[9][batch_size];
     Mat inverse_transposed[batch_size];
   };
   Batch batch;

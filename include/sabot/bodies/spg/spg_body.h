@@ -220,6 +220,8 @@ private:
     double trial_square[batch_size], old_trial[batch_size],
         old_square[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
+    double mean_viscous_pressure[batch_size];
+    double deformation_gradient[9][batch_size];
     Mat residual_on_bond[batch_size];     // sum phi e (x) dx
     Mat residual_on_residual[batch_size]; // sum phi e (x) e
     Mat velocity_gradient[batch_size];    // F_new F_old^-1 - 1
