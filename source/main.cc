@@ -1,4 +1,5 @@
 #include "sabot/base/parameter_file.h"
+#include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 #include "sabot/verification/problem.h"
@@ -62,6 +63,25 @@ ExitCode run_scene(const Arguments &arguments, const bool check_only)
   return ExitCode::done;
 }
 
+ExitCode resume_run(const Arguments &arguments)
+{
+  const ResumePoint point =
+      find_resume_point(arguments.folder, arguments.overrides, MPI_COMM_WORLD);
+  const ParameterFile file(point.scene, arguments.overrides);
+  try
+  {
+    Scene scene(file, MPI_COMM_WORLD);
+    scene.warnings.insert(scene.warnings.begin(), point.warnings.begin(),
+                          point.warnings.end());
+    return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
+        .execute(point.checkpoint);
+  }
+  catch (const InputError &error)
+  {
+    throw InputError("", located(error, &file));
+  }
+}
+
 ExitCode print_parameters(const Arguments &arguments)
 {
   using dealii::ParameterHandler;
@@ -118,6 +138,16 @@ int main(int argc, char **argv)
   run->add_option("-o,--output", arguments.folder, "Folder for the results")
       ->capture_default_str();
   run->add_flag("--quiet", arguments.quiet, "Write to log.txt only");
+  CLI::App *const resume = app.add_subcommand(
+      "resume", "Continue an interrupted run from its newest checkpoint");
+  resume->add_option("folder", arguments.folder, "Folder with the results")
+      ->required();
+  resume
+      ->add_option("--set", arguments.overrides,
+                   "Replace an entry on which the state does not depend: "
+                   "\"End time=value\"")
+      ->allow_extra_args(false);
+  resume->add_flag("--quiet", arguments.quiet, "Write to log.txt only");
   CLI::App *const check =
       app.add_subcommand("check", "Check a scene without running it");
   add_scene(check);
@@ -150,6 +180,7 @@ int main(int argc, char **argv)
   {
     code = *parameters     ? print_parameters(arguments)
            : *verification ? run_verification(arguments)
+           : *resume       ? resume_run(arguments)
                            : run_scene(arguments, bool(*check));
   }
   catch (const InputError &error)

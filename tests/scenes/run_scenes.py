@@ -100,7 +100,7 @@ class Scenes(unittest.TestCase):
                     "time", "wall_seconds", "cpu_seconds", "peak_memory_bytes",
                     "energy_residual_max", "momentum_residual_max",
                     "stable_step_min", "bodies", "quantities", "timers",
-                    "contact", "knobs"):
+                    "contact", "zone", "knobs"):
             self.assertIn(key, r)
         self.assertEqual(r["status"], "completed")
         self.assertAlmostEqual(r["time"], 5e-6, delta=1e-18)
@@ -193,6 +193,91 @@ class Scenes(unittest.TestCase):
         self.assertEqual(r["status"], "interrupted")
         self.assertTrue(os.path.exists(os.path.join(out, "sabot.pvd")))
         self.assertTrue(os.path.exists(os.path.join(out, "history.h5")))
+
+    def test_a_resumed_run_is_the_straight_run_bit_for_bit(self):
+        # Contact, broken bonds and debris; checkpoints fall between outputs.
+        settings = ("--quiet", "--set", "End time=6 us", "--set",
+                    "Outputs/fields/Interval=2.5 us")
+        for ranks in (1, 2):
+            straight = folder("straight")
+            done = sabot("run", QUICK, "-o", straight, *settings, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            steps = result(straight)["steps"]
+            parted = folder("parted")
+            done = sabot("run", QUICK, "-o", parted, *settings, "--set",
+                         "Checkpoint interval in steps=%d" % (0.4 * steps),
+                         ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            files = sorted(os.listdir(os.path.join(parted, "checkpoint")))
+            self.assertEqual(len(files), 2)
+            for name in ("history.h5", "result.json", "sabot.pvd"):
+                os.remove(os.path.join(parted, name))
+            # A damaged file is passed over for the one before.
+            newest = os.path.join(parted, "checkpoint", files[-1])
+            size = os.path.getsize(newest)
+            with open(newest, "r+b") as file:
+                file.seek(size // 2)
+                byte = file.read(1)
+                file.seek(size // 2)
+                file.write(bytes([byte[0] ^ 1]))
+            done = sabot("resume", parted, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(parted, "log.txt")) as file:
+                log = file.read()
+            self.assertIn("damaged", log)
+            self.assertIn("resumed at step %d," % int(0.4 * steps), log)
+            for name in ("history.h5", "sabot.pvd"):
+                with open(os.path.join(straight, name), "rb") as a, \
+                        open(os.path.join(parted, name), "rb") as b:
+                    self.assertEqual(a.read(), b.read(), name)
+            self.assertGreater(result(parted)["bodies"]["core"]
+                               ["bonds_broken_fraction"], 0.01)
+            # The other number of ranks is refused.
+            done = sabot("resume", parted, "--quiet", ranks=3 - ranks)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("mpirun -np %d" % ranks, done.stdout)
+
+    def test_a_signalled_run_resumes(self):
+        settings = ("--quiet", "--set", "End time=3 ms", "--set",
+                    "Outputs/fields/Interval=1 ms", "--set",
+                    "Outputs/averages/Interval=10 us")
+        straight, parted = folder("bar-straight"), folder("bar-parted")
+        done = sabot("run", BAR, "-o", straight, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        process = subprocess.Popen([SABOT, "run", BAR, "-o", parted,
+                                    *settings])
+        while not os.path.exists(os.path.join(parted, "sabot.pvd")):
+            time.sleep(0.01)
+        time.sleep(0.2)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 3)
+        r = result(parted)
+        self.assertEqual(r["status"], "interrupted")
+        self.assertLess(r["time"], 3e-3)
+        self.assertEqual(sabot("resume", parted, "--quiet", "--set",
+                               "Bodies/block/Size=1 m").returncode, 1)
+        done = sabot("resume", parted, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(result(parted)["status"], "completed")
+        for name in ("history.h5", "sabot.pvd"):
+            with open(os.path.join(straight, name), "rb") as a, \
+                    open(os.path.join(parted, name), "rb") as b:
+                self.assertEqual(a.read(), b.read(), name)
+
+    def test_a_failed_run_leaves_its_last_state(self):
+        out = folder("failed")
+        done = sabot("run", os.path.join(SOURCE, "prm/taylor/symmetric.prm"),
+                     "-o", out, "--quiet", "--set",
+                     "Energy residual limit=1e-6", "--set",
+                     "Bodies/upper/Cell size=1.6 mm", "--set",
+                     "Bodies/lower/Cell size=1.6 mm")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertEqual(result(out)["status"], "failed")
+        self.assertEqual(os.listdir(os.path.join(out, "checkpoint")),
+                         ["failed.h5"])
+        done = sabot("resume", out)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("holds no checkpoint", done.stdout)
 
     def test_an_unwritable_folder_is_an_io_error(self):
         done = sabot("run", BAR, "-o", "/proc/results")

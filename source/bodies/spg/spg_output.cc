@@ -116,7 +116,9 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("internal energy", internal_energy);
   visit("bond work", bond_work);
   visit("force on residual", force_on_residual);
-  visit("bond force", bonds.force);
+  // Ghosts' bond forces come anew every step.
+  visitor.visit("bond force", bonds.force.data(), bonds.capacity(),
+                sizeof(bonds.force[0]));
   visit("plastic work", plastic_work);
   visit("update stable step", update_stable_step);
   visit("bond count", bonds.count);
@@ -125,6 +127,9 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("bond rest", bonds.rest);
   visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
   visitor.visit("largest change", &largest_change, 1, sizeof(double));
-  bonds.reconnect();
+  visitor.visit("stable step item", &stable_step_item, 1, sizeof(GlobalIndex));
+  visitor.visit("removed bonds", &n_removed_bonds, 1, sizeof(n_removed_bonds));
+  if (visitor.is_restoring())
+    bonds.reconnect();
 }
 } // namespace sabot
