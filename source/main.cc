@@ -2,6 +2,7 @@
 #include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
+#include "sabot/study/study.h"
 #include "sabot/verification/problem.h"
 
 #include <deal.II/base/mpi.h>
@@ -21,6 +22,7 @@ struct Arguments
   std::vector<std::string> problems;
   std::string json_file;
   bool quiet = false, list = false;
+  StudyArguments study;
 };
 
 /** "file:line: message" of bad input. */
@@ -116,6 +118,30 @@ ExitCode run_verification(const Arguments &arguments)
              ? ExitCode::done
              : ExitCode::physics_failed;
 }
+
+/** Run a command; what it throws becomes a message and an exit code. */
+template <typename Action>
+int report_errors(const bool speaks, const Action &action)
+{
+  ExitCode code = ExitCode::done;
+  try
+  {
+    code = action();
+  }
+  catch (const InputError &error)
+  {
+    if (speaks)
+      std::cerr << "error: " << error.what() << std::endl;
+    code = ExitCode::bad_input;
+  }
+  catch (const IOError &error)
+  {
+    if (speaks)
+      std::cerr << "error: " << error.what() << std::endl;
+    code = ExitCode::io_failed;
+  }
+  return static_cast<int>(code);
+}
 } // namespace
 
 int main(int argc, char **argv)
@@ -151,6 +177,20 @@ int main(int argc, char **argv)
   CLI::App *const check =
       app.add_subcommand("check", "Check a scene without running it");
   add_scene(check);
+  CLI::App *const study = app.add_subcommand(
+      "study", "Vary the parameters of a scene; tables, charts and a report");
+  study->add_option("study", arguments.study.file, "Study file (.prm)")
+      ->required();
+  study
+      ->add_option("--set", arguments.study.overrides,
+                   "Replace an entry of the study: \"Section/Name=value\"")
+      ->allow_extra_args(false);
+  study->add_option("-o,--output", arguments.study.folder, "Folder")
+      ->default_val("results-study");
+  study->add_option("--processes", arguments.study.n_processes,
+                    "Runs at the same time; 0: as the study file says");
+  study->add_flag("--retry", arguments.study.retry, "Run again what failed");
+  study->add_flag("--quiet", arguments.study.quiet, "Say nothing");
   CLI::App *const parameters =
       app.add_subcommand("parameters", "Print the manual of all entries");
   parameters->add_option("--format", arguments.format, "")
@@ -172,28 +212,19 @@ int main(int argc, char **argv)
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
 
+  // A study starts processes that use MPI and must not be one itself.
+  if (*study)
+    return report_errors(true, [&]() { return run_study(arguments.study); });
+
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool speaks =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  ExitCode code = ExitCode::done;
-  try
-  {
-    code = *parameters     ? print_parameters(arguments)
-           : *verification ? run_verification(arguments)
-           : *resume       ? resume_run(arguments)
-                           : run_scene(arguments, bool(*check));
-  }
-  catch (const InputError &error)
-  {
-    if (speaks)
-      std::cerr << "error: " << error.what() << std::endl;
-    code = ExitCode::bad_input;
-  }
-  catch (const IOError &error)
-  {
-    if (speaks)
-      std::cerr << "error: " << error.what() << std::endl;
-    code = ExitCode::io_failed;
-  }
-  return static_cast<int>(code);
+  return report_errors(speaks,
+                       [&]()
+                       {
+                         return *parameters     ? print_parameters(arguments)
+                                : *verification ? run_verification(arguments)
+                                : *resume       ? resume_run(arguments)
+                                          : run_scene(arguments, bool(*check));
+                       });
 }

@@ -261,9 +261,10 @@ std::string describe(const ZoneVerdict &v)
     char text[120];
     if (distance == nowhere)
       return what + " nowhere";
-    std::snprintf(text, sizeof(text), "%s %s %.1f spacings of the tie",
-                  what.c_str(), distance < 0. ? "beyond by" : "within",
-                  std::abs(distance));
+    std::snprintf(text, sizeof(text),
+                  distance < 0. ? "%s %.1f spacings beyond the tie"
+                                : "%s within %.1f spacings of the tie",
+                  what.c_str(), std::abs(distance));
     return std::string(text);
   };
   char box[200];

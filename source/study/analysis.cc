@@ -91,9 +91,8 @@ Convergence fit_convergence(const std::vector<double> &h,
   const double deviation =
       h.size() > 3 ? std::sqrt(fit.residual / (h.size() - 3)) : 0.;
   if (deviation > 0.5 * (*range.second - *range.first) ||
-      (h.size() == 3 && fit.residual > 1e-6 * std::pow(*range.second -
-                                                           *range.first,
-                                                       2)))
+      (h.size() == 3 &&
+       fit.residual > 1e-6 * std::pow(*range.second - *range.first, 2)))
     return result;
   result.has_order = true;
   result.order = p;
@@ -115,8 +114,7 @@ std::vector<std::size_t> pareto_front(const std::vector<double> &cost,
     if (std::isfinite(cost[i]) && std::isfinite(error[i]))
       order.push_back(i);
   std::sort(order.begin(), order.end(),
-            [&](const std::size_t i, const std::size_t j)
-            {
+            [&](const std::size_t i, const std::size_t j) {
               return cost[i] != cost[j] ? cost[i] < cost[j]
                                         : error[i] < error[j];
             });

@@ -146,7 +146,8 @@ void StudyFile::declare(dealii::ParameterHandler &prm,
     prm.declare_entry("Labels", "", Patterns::Anything(),
                       "Names of the values in tables and charts, separated by "
                       "semicolons; none: the values themselves.");
-    prm.declare_entry("Role", "knob", Patterns::Selection("knob|spacing|physics"),
+    prm.declare_entry("Role", "knob",
+                      Patterns::Selection("knob|spacing|physics"),
                       "knob: trades speed for accuracy; spacing: sizes over "
                       "which convergence is judged; physics: changes the "
                       "problem.");
@@ -170,6 +171,25 @@ StudyFile::StudyFile(const std::string &file_name,
                      const std::vector<std::string> &overrides)
 {
   const ParameterFile file(file_name, overrides);
+  try
+  {
+    read(file);
+    list_runs();
+  }
+  catch (const InputError &e)
+  {
+    // What is wrong in the scene's own files says so already.
+    if (e.parameter.empty() ||
+        std::string(e.what()).find(".prm") != std::string::npos ||
+        std::string(e.what()).compare(0, 5, "--set") == 0)
+      throw;
+    throw InputError("", file.origin(e.parameter) + ": " + e.parameter + ": " +
+                             e.what());
+  }
+}
+
+void StudyFile::read(const ParameterFile &file)
+{
   const std::vector<std::string> names = file.subsections("Parameters"),
                                  quantity_names =
                                      file.subsections("Quantities");
@@ -179,7 +199,7 @@ StudyFile::StudyFile(const std::string &file_name,
   title = prm.get("Title");
   if (prm.get("Scene").empty())
     throw InputError("Scene", "a study needs the file of a scene");
-  scene = beside(file_name, prm.get("Scene"));
+  scene = beside(file.file_name, prm.get("Scene"));
   is_grid = prm.get("Combination") == "grid";
   n_processes = prm.get_integer("Processes");
   n_ranks = prm.get_integer("Ranks per run");
@@ -188,7 +208,7 @@ StudyFile::StudyFile(const std::string &file_name,
   {
     prm.enter_subsection("Parameters");
     prm.enter_subsection(name);
-    parameters.push_back(read_parameter(prm, name, file_name));
+    parameters.push_back(read_parameter(prm, name, file.file_name));
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -214,7 +234,6 @@ StudyFile::StudyFile(const std::string &file_name,
     prm.leave_subsection();
     prm.leave_subsection();
   }
-  list_runs();
 }
 
 void StudyFile::list_runs()
@@ -260,14 +279,13 @@ void StudyFile::list_runs()
         split_names(prm.get("List of quantities"));
     for (const StudyQuantity &quantity : quantities)
       if (std::find(known.begin(), known.end(), quantity.name) == known.end())
-        throw InputError("Quantities/" + quantity.name,
-                         "scene \"" + run.scene +
-                             "\" has no quantity of this name" +
-                             (known.empty()
-                                  ? std::string()
-                                  : "; did you mean \"" +
-                                        nearest_name(quantity.name, known) +
-                                        "\"?"));
+        throw InputError(
+            "Quantities/" + quantity.name,
+            "scene \"" + run.scene + "\" has no quantity of this name" +
+                (known.empty()
+                     ? std::string()
+                     : "; did you mean \"" +
+                           nearest_name(quantity.name, known) + "\"?"));
     runs.push_back(run);
   }
 }

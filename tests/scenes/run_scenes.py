@@ -3,6 +3,7 @@
 
 Scenes on several ranks, results and files, bad input, signals, exit codes.
 """
+import csv
 import glob
 import json
 import os
@@ -278,6 +279,52 @@ class Scenes(unittest.TestCase):
         done = sabot("resume", out)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("holds no checkpoint", done.stdout)
+
+    def test_a_study_runs_resumes_and_reports(self):
+        study = os.path.join(SOURCE, "tests/scenes/study.prm")
+        out = folder("study")
+        done = sabot("study", study, "-o", out)
+        # One run of the study goes wrong by intent and is passed over.
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("4 of 5 runs complete", done.stdout)
+        self.assertIn("exit code 1", done.stdout)
+        with open(os.path.join(out, "study.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 5)
+        self.assertEqual([row["status"] for row in rows].count("completed"), 4)
+        self.assertEqual(rows[0]["spacing"], "1.25 mm")
+        self.assertAlmostEqual(float(rows[0]["speed [m/s]"]), 10., delta=1e-9)
+        self.assertLess(float(rows[0]["relative error of speed"]), 1e-9)
+        with open(os.path.join(out, "report.html")) as file:
+            html = file.read()
+        for text in ("Price list", "Convergence", "Pareto front", "<svg",
+                     "speed over time", "step factor"):
+            self.assertIn(text, html)
+        self.assertNotIn("http", html)  # self-contained
+        self.assertTrue(os.path.exists(os.path.join(out, "study.h5")))
+        if shutil.which("xvfb-run") or "DISPLAY" in os.environ:
+            pictures = glob.glob(os.path.join(out, "charts/*.png"))
+            self.assertEqual(len(pictures), 5, done.stdout)
+        # Nothing that is done is done again.
+        runs = {name: os.path.getmtime(os.path.join(out, "runs", name,
+                                                    "result.json"))
+                for name in os.listdir(os.path.join(out, "runs"))
+                if os.path.exists(os.path.join(out, "runs", name,
+                                               "result.json"))}
+        done = sabot("study", study, "-o", out)
+        self.assertIn("4 of them kept", done.stdout)
+        for name, when in runs.items():
+            self.assertEqual(when, os.path.getmtime(
+                os.path.join(out, "runs", name, "result.json")))
+        for override, expected in (
+                ("Parameters/spacing/Entries=Bodies/blok/Nodal spacing",
+                 "belongs to Bodies/block"),
+                ("Parameters/spacing/Values=1 mm | 2 mm", "2 parts for 1"),
+                ("Scene=nowhere.prm", "nowhere.prm"),
+                ("Quantities/sped/Source=x", "did you mean \"speed\"")):
+            done = sabot("study", study, "-o", out, "--set", override)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(expected, done.stdout)
 
     def test_an_unwritable_folder_is_an_io_error(self):
         done = sabot("run", BAR, "-o", "/proc/results")

@@ -12,6 +12,8 @@ class ParameterHandler;
 
 namespace sabot
 {
+class ParameterFile;
+
 /** A parameter of a study: one value sets one or more entries of the scene. */
 struct StudyParameter
 {
@@ -70,6 +72,7 @@ struct StudyFile
                       const std::vector<std::string> &quantity_names);
 
 private:
+  void read(const ParameterFile &file);
   void list_runs();
 };
 } // namespace sabot
