@@ -1,4 +1,6 @@
 #include "sabot/base/parameter_file.h"
+#include "sabot/output/file_tools.h"
+#include "sabot/simulation/plan.h"
 #include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
@@ -56,6 +58,32 @@ ExitCode run_scene(const Arguments &arguments, const bool check_only)
         std::cout << " " << body->name << " (" << body->n_items() << " "
                   << body->item_name() << ")";
       std::cout << std::endl;
+    }
+  }
+  catch (const InputError &error)
+  {
+    throw InputError("", located(error, &file));
+  }
+  return ExitCode::done;
+}
+
+ExitCode plan_scene(const Arguments &arguments)
+{
+  const ParameterFile file(arguments.scene, arguments.overrides);
+  try
+  {
+    Scene scene(file, MPI_COMM_WORLD);
+    const PhysicsPlan physics = plan_physics(scene);
+    constexpr double calibration_seconds = 1.;
+    const CostPlan cost =
+        plan_cost(scene, physics, calibration_seconds, MPI_COMM_WORLD);
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      for (const std::string &warning : scene.warnings)
+        std::cout << "warning: " << warning << "\n";
+      std::cout << to_text(physics, cost) << std::flush;
+      if (!arguments.json_file.empty())
+        write_text(arguments.json_file, to_json(physics, cost).dump(2) + "\n");
     }
   }
   catch (const InputError &error)
@@ -177,6 +205,10 @@ int main(int argc, char **argv)
   CLI::App *const check =
       app.add_subcommand("check", "Check a scene without running it");
   add_scene(check);
+  CLI::App *const plan = app.add_subcommand(
+      "plan", "Say what a scene needs and costs before running it");
+  add_scene(plan);
+  plan->add_option("--json", arguments.json_file, "Also write it to this file");
   CLI::App *const study = app.add_subcommand(
       "study", "Vary the parameters of a scene; tables, charts and a report");
   study->add_option("study", arguments.study.file, "Study file (.prm)")
@@ -225,6 +257,7 @@ int main(int argc, char **argv)
                          return *parameters     ? print_parameters(arguments)
                                 : *verification ? run_verification(arguments)
                                 : *resume       ? resume_run(arguments)
-                                          : run_scene(arguments, bool(*check));
+                                : *plan         ? plan_scene(arguments)
+                                        : run_scene(arguments, bool(*check));
                        });
 }
