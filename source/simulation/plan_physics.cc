@@ -89,6 +89,9 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
     }
   }
 
+  for (const double component : t.velocity)
+    if (component != 0.)
+      return; // no target at rest with a far boundary and a rear face
   // How far a wave gets, along the plate.
   double far = 0.;
   for (int d = 0; d < 3; ++d)

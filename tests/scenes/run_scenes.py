@@ -280,6 +280,53 @@ class Scenes(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("holds no checkpoint", done.stdout)
 
+    def test_a_plan_is_right_within_a_factor_of_1_5(self):
+        taylor = os.path.join(SOURCE, "prm/taylor/symmetric.prm")
+        coarse = ("--set", "Bodies/upper/Cell size=1.2 mm", "--set",
+                  "Bodies/lower/Cell size=1.2 mm")
+        for scene, settings in ((QUICK, ("--set", "End time=15 us")),
+                                (taylor, coarse)):
+            # Time depends on what else the machine does: it may be tried again.
+            for attempt in range(3):
+                file = os.path.join(WORK, "plan.json")
+                done = sabot("plan", scene, "--json", file, *settings)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                with open(file) as stream:
+                    plan = json.load(stream)
+                out = folder("planned")
+                done = sabot("run", scene, "-o", out, "--quiet", *settings)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                r = result(out)
+                size = sum(os.path.getsize(os.path.join(where, name))
+                           for where, _, names in os.walk(out)
+                           for name in names)
+                ratios = {
+                    "steps": plan["steps"] / r["steps"],
+                    "memory": plan["memory_bytes"] / r["peak_memory_bytes"],
+                    "output": plan["output_bytes"] / size,
+                    "time": plan["wall_seconds"] / r["wall_seconds"]}
+                print(os.path.basename(scene), ratios)
+                if 1 / 1.5 < ratios["time"] < 1.5:
+                    break
+            for name, ratio in ratios.items():
+                self.assertLess(ratio, 1.5, name)
+                self.assertGreater(ratio, 1 / 1.5, name)
+
+    def test_a_plan_warns_of_switches_that_disagree(self):
+        done = sabot("plan", QUICK, "--set", "List of couplings=zone, impact",
+                     "--set", "Bodies/core/Size=20 mm, 20 mm, 12.7 mm")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("no self-contact", done.stdout)
+        self.assertIn("narrower than the region", done.stdout)
+        # rho v^2 / Y and t v / (thickness + length), by hand.
+        self.assertIn("yield = 7.84", done.stdout)
+        self.assertIn("transits = 1.63", done.stdout)
+        self.assertIn("boundary = 1.82", done.stdout)
+        done = sabot("plan", QUICK, "--set",
+                     "Bodies/projectile/Initial velocity=0 m/s, 0 m/s, -6 km/s",
+                     "--set", "End time=2 us")
+        self.assertIn("has no equation of state", done.stdout)
+
     def test_a_study_runs_resumes_and_reports(self):
         study = os.path.join(SOURCE, "tests/scenes/study.prm")
         out = folder("study")
