@@ -222,6 +222,8 @@ int main(int argc, char **argv)
   study->add_option("--processes", arguments.study.n_processes,
                     "Runs at the same time; 0: as the study file says");
   study->add_flag("--retry", arguments.study.retry, "Run again what failed");
+  study->add_flag("--list", arguments.study.list,
+                  "Check the study and list its runs without running them");
   study->add_flag("--quiet", arguments.study.quiet, "Say nothing");
   CLI::App *const parameters =
       app.add_subcommand("parameters", "Print the manual of all entries");

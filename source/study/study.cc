@@ -53,6 +53,20 @@ Command command_for(const StudyFile &study, const StudyRun &run,
   return command;
 }
 
+void list_runs(const StudyArguments &arguments, const StudyFile &study)
+{
+  for (const StudyRun &run : study.runs)
+  {
+    std::cout
+        << run.key << " "
+        << read_outcome(run_folder(arguments, run), study.quantities).status
+        << ": " << run.scene;
+    for (const std::string &text : run.overrides)
+      std::cout << " --set \"" << text << "\"";
+    std::cout << "\n";
+  }
+}
+
 /** Run what is missing. @return whether nothing stopped it. */
 bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
 {
@@ -136,6 +150,11 @@ std::string draw_pictures(const std::vector<Chart> &charts,
 ExitCode run_study(const StudyArguments &arguments)
 {
   const StudyFile study(arguments.file, arguments.overrides);
+  if (arguments.list)
+  {
+    list_runs(arguments, study);
+    return ExitCode::done;
+  }
   make_folder(arguments.folder + "/runs");
   const bool all_started = complete_runs(arguments, study);
 

@@ -123,13 +123,21 @@ class Scenes(unittest.TestCase):
 
     def test_every_shipped_scene_is_valid(self):
         scenes = [s for s in glob.glob(os.path.join(SOURCE, "prm/*/*.prm"))
-                  if "/materials/" not in s]
+                  if "/materials/" not in s and "/studies/" not in s]
         self.assertGreater(len(scenes), 5)
         for scene in scenes:
             if scene.endswith("0.5mm.prm"):
                 continue  # as the others, but slow to lay out
             done = sabot("check", scene)
             self.assertEqual(done.returncode, 0, scene + "\n" + done.stdout)
+
+    def test_every_shipped_study_is_valid(self):
+        studies = glob.glob(os.path.join(SOURCE, "prm/studies/*.prm"))
+        self.assertGreater(len(studies), 5)
+        for study in studies:
+            done = sabot("study", study, "--list")
+            self.assertEqual(done.returncode, 0, study + "\n" + done.stdout)
+            self.assertGreater(len(done.stdout.splitlines()), 1)
 
     def test_every_shipped_material_is_valid(self):
         for material in glob.glob(os.path.join(SOURCE, "prm/materials/*.prm")):

@@ -15,6 +15,7 @@ struct StudyArguments
   unsigned int n_processes = 0; // 0: as the study says
   bool retry = false;           // run again what failed
   bool quiet = false;
+  bool list = false; // only say which runs there are
 };
 
 /**
