@@ -5,6 +5,7 @@
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 #include "sabot/study/study.h"
+#include "sabot/study/study_file.h"
 #include "sabot/verification/problem.h"
 
 #include <deal.II/base/mpi.h>
@@ -23,7 +24,7 @@ struct Arguments
   std::vector<std::string> overrides;
   std::vector<std::string> problems;
   std::string json_file;
-  bool quiet = false, list = false;
+  bool quiet = false, list = false, is_about_studies = false;
   StudyArguments study;
 };
 
@@ -116,7 +117,10 @@ ExitCode print_parameters(const Arguments &arguments)
 {
   using dealii::ParameterHandler;
   ParameterHandler prm;
-  Scene::declare(prm, nullptr);
+  if (arguments.is_about_studies)
+    StudyFile::declare(prm, {"<name>"}, {"<name>"});
+  else
+    Scene::declare(prm, nullptr);
   const auto style = arguments.format == "prm"    ? ParameterHandler::Text
                      : arguments.format == "json" ? ParameterHandler::JSON
                      : arguments.format == "xml"
@@ -230,6 +234,8 @@ int main(int argc, char **argv)
   parameters->add_option("--format", arguments.format, "")
       ->check(CLI::IsMember({"markdown", "prm", "json", "xml"}))
       ->capture_default_str();
+  parameters->add_flag("--study", arguments.is_about_studies,
+                       "Of study files instead of scenes");
   CLI::App *const verification = app.add_subcommand(
       "verify", "Compare verification problems with exact answers");
   verification->add_option("name", arguments.problems,
