@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -166,6 +167,36 @@ std::vector<StateBlock> read_blocks(const std::string &file, const int rank,
       blocks.push_back(std::move(block));
   }
   return blocks;
+}
+
+/** Closes the file: HDF5 takes no notice of what follows its own end, and may
+    do anything with a damaged file, so this is looked at first. */
+const std::string trailer_start = "\nSHA-256 ";
+constexpr std::size_t trailer_size = 9 + 64 + 1;
+
+void append_trailer(const std::string &file)
+{
+  const std::string hash = sha256_of_file(file, fs::file_size(file));
+  std::ofstream stream(file, std::ios::binary | std::ios::app);
+  stream << trailer_start << hash << "\n";
+  stream.close();
+  if (hash.empty() || !stream)
+    throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
+}
+
+void check_trailer(const std::string &file)
+{
+  std::error_code error;
+  const std::size_t size = fs::file_size(file, error);
+  if (error || size < trailer_size)
+    damaged(file, "it is cut short");
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(size - trailer_size);
+  std::string trailer(trailer_size, ' ');
+  stream.read(&trailer[0], trailer_size);
+  if (trailer !=
+      trailer_start + sha256_of_file(file, size - trailer_size) + "\n")
+    damaged(file, "its bytes do not match its checksum");
 }
 
 void flush_to_disk(const std::string &file)
@@ -345,6 +376,7 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
         std::remove(temporary.c_str());
         throw IOError("cannot write \"" + file + "\": " + reason);
       }
+      append_trailer(temporary);
       flush_to_disk(temporary);
     };
     try
@@ -387,6 +419,7 @@ std::vector<std::string> CheckpointFolder::list(const std::string &folder)
 CheckpointHeader CheckpointFolder::verify(const std::string &file)
 {
   CheckpointHeader header;
+  check_trailer(file);
   read_blocks(file, -1, header, false);
   return header;
 }

@@ -381,6 +381,30 @@ class Scenes(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(expected, done.stdout)
 
+    def test_a_study_passes_a_signal_on_and_goes_on_later(self):
+        study = os.path.join(SOURCE, "tests/scenes/study.prm")
+        out = folder("study-signal")
+        settings = ("--set", "Parameters/spacing/Values=1.25 mm", "--set",
+                    "Parameters/step factor/Values=0.9; 0.8", "--set",
+                    "Parameters/material/Values=2700 kg/m^3 | metal", "--set",
+                    "Parameters/material/Labels=metal", "--set",
+                    "Fixed entries=End time=4 ms; Outputs/fields/Interval=4 ms;"
+                    "Outputs/averages/Interval=0.1 ms")
+        process = subprocess.Popen([SABOT, "study", study, "-o", out,
+                                    *settings], stdout=subprocess.DEVNULL)
+        while len(glob.glob(os.path.join(out, "runs/*/sabot.pvd"))) < 2:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 3)
+        for name in glob.glob(os.path.join(out, "runs/*")):
+            self.assertEqual(result(name)["status"], "interrupted")
+        done = sabot("study", study, "-o", out, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("2 of 2 runs complete", done.stdout)
+        for name in glob.glob(os.path.join(out, "runs/*")):
+            with open(os.path.join(name, "log.txt")) as file:
+                self.assertIn("resumed at step", file.read())
+
     def test_an_unwritable_folder_is_an_io_error(self):
         done = sabot("run", BAR, "-o", "/proc/results")
         self.assertEqual(done.returncode, 4, done.stdout)

@@ -62,8 +62,8 @@ struct CheckpointHeader
 /**
  * Checkpoints of a run as HDF5: step-<number>.h5 in a folder of their own, each
  * with the arrays of all ranks and an index that holds the length and the
- * SHA-256 of every array; the index has its own. Files are written new,
- * flushed to the disk and renamed; the last two are kept.
+ * SHA-256 of every array; the SHA-256 of the file follows its HDF5 part. Files
+ * are written new, flushed to the disk and renamed; the last two are kept.
  */
 class CheckpointFolder
 {
@@ -84,7 +84,7 @@ public:
   static std::vector<std::string> list(const std::string &folder);
   /** Read the header and check the whole file. IOError says what is wrong. */
   static CheckpointHeader verify(const std::string &file);
-  /** Blocks of one rank. IOError. */
+  /** Blocks of one rank of a verified file. IOError. */
   static std::vector<StateBlock> read(const std::string &file, const int rank);
 
   static constexpr unsigned int format = 1;
