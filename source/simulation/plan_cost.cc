@@ -118,12 +118,39 @@ double sum_over_ranks(double value, MPI_Comm communicator)
 }
 
 /** Bytes of all field outputs, and seconds to compress them once. */
+/** Time between energy checks is the run's over this (as in run.cc). */
+constexpr double n_checks = 200.;
+
+double n_history_rows(const Scene &scene)
+{
+  double n = 0.;
+  for (const OutputSettings &output : scene.outputs)
+    if (output.type == OutputSettings::Type::history)
+      n += std::floor(scene.settings.end_time / output.interval) + 1.;
+  return n;
+}
+
+/** Wall time of one row of the histories [s]. */
+double seconds_per_row(const Scene &scene)
+{
+  const auto start = Clock::now();
+  EnergyLedger ledger;
+  for (const auto &body : scene.bodies)
+  {
+    body->add_energies(ledger);
+    body->measure();
+  }
+  for (const QuantityOfInterest &quantity : scene.quantities)
+    scene.bodies[quantity.body]->measure();
+  return since(start);
+}
+
 void plan_output(const Scene &scene, const PhysicsPlan &physics, CostPlan &plan,
                  double &seconds, MPI_Comm communicator)
 {
   const double end = scene.settings.end_time;
   double bytes = 0., once = 0.;
-  double n_frames = 0., n_rows = 0.;
+  double n_frames = 0.;
   std::vector<double> times;
   for (const OutputSettings &output : scene.outputs)
     if (output.type == OutputSettings::Type::vtu)
@@ -134,8 +161,6 @@ void plan_output(const Scene &scene, const PhysicsPlan &physics, CostPlan &plan,
       for (double k = 0.; k < n_samples; k += 1.)
         times.push_back(end * k / std::max(1., n_samples - 1.));
     }
-    else
-      n_rows += std::floor(end / output.interval) + 1.;
   for (std::size_t b = 0; b < scene.bodies.size() && !times.empty(); ++b)
   {
     const Body &body = *scene.bodies[b];
@@ -167,13 +192,12 @@ void plan_output(const Scene &scene, const PhysicsPlan &physics, CostPlan &plan,
     }
   }
   // History: rows of all tables, also those of the regular energy checks.
-  constexpr double n_checks = 200.;
   double columns = 12.;
   for (const auto &body : scene.bodies)
     columns += 1. + body->measure().size();
   columns += scene.quantities.empty() ? 0. : 1. + scene.quantities.size();
-  plan.output_bytes =
-      sum_over_ranks(bytes, communicator) + 8. * columns * (n_rows + n_checks);
+  plan.output_bytes = sum_over_ranks(bytes, communicator) +
+                      8. * columns * (n_history_rows(scene) + n_checks);
   // Compression is what takes the time; frames full of numbers take longer.
   seconds = 2. * once * n_frames;
 }

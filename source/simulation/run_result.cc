@@ -54,6 +54,7 @@ ordered_json zone_results(const std::vector<ZoneVerdict> &verdicts)
         {"broken_bonds", reached(v.bond_distance)},
         {"smallest_zone", box(v.for_both)},
         {"smallest_zone_for_broken_bonds", box(v.for_bonds)},
+        {"is_lower_bound", v.is_lower_bound()},
         {"verdict", v.bond_distance <= 0.      ? "bonds broke at the tie"
                     : v.plastic_distance <= 0. ? "plastic flow passed the tie"
                                                : "contained"}};

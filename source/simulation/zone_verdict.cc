@@ -225,8 +225,12 @@ std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
     // What a cell of the host next to the zone is like.
     const double cell_seconds =
         n_fem > 0. ? seconds_of(timers, "fem step") / n_fem : 0.;
-    const double particle_seconds =
-        n_spg > 0. ? seconds_of(timers, "spg step") / n_spg : 0.;
+    // All that grows with the number of particles.
+    double particle_seconds = 0.;
+    for (const char *const name :
+         {"spg step", "kernel update", "contact search", "self-contact",
+          "self-contact search"})
+      particle_seconds += seconds_of(timers, name) / std::max(1., n_spg);
     const auto judge = [&](const Reach &reach)
     {
       const auto [low, high] = smallest_box(zone, reach);
@@ -269,9 +273,9 @@ std::string describe(const ZoneVerdict &v)
   };
   char box[200];
   std::snprintf(box, sizeof(box),
-                "; %.1f x %.1f x %.1f mm would hold both (%s %.3g s)",
-                1e3 * v.for_both.size[0], 1e3 * v.for_both.size[1],
-                1e3 * v.for_both.size[2],
+                "; %s%.1f x %.1f x %.1f mm would hold both (%s %.3g s)",
+                v.is_lower_bound() ? "at least " : "", 1e3 * v.for_both.size[0],
+                1e3 * v.for_both.size[1], 1e3 * v.for_both.size[2],
                 v.for_both.seconds_saved >= 0. ? "saves" : "costs",
                 std::abs(v.for_both.seconds_saved));
   return "zone " + v.zone + ": " +

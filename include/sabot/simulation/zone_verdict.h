@@ -44,12 +44,20 @@ struct ZoneVerdict
   };
   Box for_both, for_bonds;
   double n_particles;
+
+  /** Whether the tie held back what would have gone further: a larger zone
+      may be found too small as well. */
+  bool is_lower_bound() const
+  {
+    return bond_distance <= 0. || plastic_distance <= 0.;
+  }
 };
 
 /**
  * Plastic strain and broken bonds only ever grow, so the end of a run tells how
  * far they came. Seconds saved: particles left out at the measured cost of a
- * particle-step, less the cells that would stand in their place. Collective.
+ * particle-step, its searches and kernel updates, less the cells that would
+ * stand in their place. Collective.
  */
 std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
                                      const unsigned int n_steps,
