@@ -313,8 +313,9 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
                                          scene.settings.end_time) /
                                   plan.mean_step;
   plan.steps = std::ceil(plan.steps * (1. - 1e-9));
-  plan.seconds =
-      plan.set_up_seconds + plan.steps * plan.seconds_per_step + output_seconds;
+  const double n_rows = std::min(plan.steps, n_history_rows(scene) + n_checks);
+  plan.seconds = plan.set_up_seconds + plan.steps * plan.seconds_per_step +
+                 n_rows * seconds_per_row(scene) + output_seconds;
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   plan.memory_bytes = sum_over_ranks(1024. * usage.ru_maxrss, communicator);
