@@ -97,6 +97,10 @@ void Scene::read_settings()
   settings.step_factor = get_quantity(prm, "Step factor");
   settings.largest_step = get_quantity(prm, "Largest step");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
+  settings.checkpoint_interval = get_quantity(prm, "Checkpoint interval");
+  settings.checkpoint_steps = prm.get_integer("Checkpoint interval in steps");
+  settings.checkpoint_wall_time =
+      get_quantity(prm, "Checkpoint interval of wall time");
   if (split_names(prm.get("List of bodies")).empty())
     throw InputError("List of bodies",
                      "the scene has no bodies; list their names");

@@ -126,10 +126,9 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     batch.jacobian[k] = V / V0 * J;
     batch.half_volume[k] = 0.25 * V * (J + J_old);
     const double compression = norm_square(F_inverse.row[0]) +
-                              norm_square(F_inverse.row[1]) +
-                              norm_square(F_inverse.row[2]) - 2.;
-    double step =
-        update_stable_step[i] / std::sqrt(std::max(1., compression));
+                               norm_square(F_inverse.row[1]) +
+                               norm_square(F_inverse.row[2]) - 2.;
+    double step = update_stable_step[i] / std::sqrt(std::max(1., compression));
     if (!stiffening.empty())
       step /= std::sqrt(std::max(1., stiffening[i]));
     // Bulk viscosity, as for hexahedra; a flattened particle's step tells its

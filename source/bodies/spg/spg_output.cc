@@ -110,14 +110,77 @@ OutputMesh SpgBody::output_mesh() const
   return mesh;
 }
 
+void SpgBody::visit_bonds(StateVisitor &visitor)
+{
+  const std::size_t n = nodal_state.n_owned;
+  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
+  {
+    // The list itself is state.
+    std::vector<std::uint32_t> lengths(n), n_pairs(n, 0);
+    std::vector<GlobalIndex> neighbors, pairs;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      lengths[i] = bonds.n_bonds(i);
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+        neighbors.push_back(nodal_state.global_id[bonds.neighbor[b]]);
+      if (!failed_pairs.empty())
+      {
+        n_pairs[i] = failed_pairs[i].size();
+        pairs.insert(pairs.end(), failed_pairs[i].begin(),
+                     failed_pairs[i].end());
+      }
+    }
+    visitor.visit_array("row lengths", lengths);
+    visitor.visit_resized("row neighbours", neighbors);
+    visitor.visit_array("failed pair counts", n_pairs);
+    visitor.visit_resized("failed pairs", pairs);
+    if (visitor.is_restoring())
+    {
+      BondList::Rows rows(n);
+      auto j = neighbors.begin();
+      auto pair = pairs.begin();
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        rows[i].assign(j, j + lengths[i]);
+        j += lengths[i];
+        if (!failed_pairs.empty())
+          failed_pairs[i].assign(pair, pair + n_pairs[i]);
+        pair += n_pairs[i];
+      }
+      renumber(rows);
+    }
+  }
+  visitor.visit_array("bond count", bonds.count);
+  visitor.visit_array("bond neighbour", bonds.neighbor);
+  visitor.visit_array("bond weight", bonds.weight);
+  if (visitor.is_restoring())
+    bonds.reconnect();
+  // Ghosts' bonds come anew.
+  const auto visit = [&](const std::string &array, auto &data)
+  {
+    if (data.empty())
+      return;
+    data.resize(bonds.n_with_ghosts());
+    visitor.visit(array, data.data(), bonds.capacity(), sizeof(data[0]));
+    if (visitor.is_restoring())
+      bonds.update_ghosts(data.data());
+  };
+  visit("bond residual", bonds.residual);
+  visit("shape gradient", shape_gradient);
+  if (second_gradient)
+    visit("second gradient of bonds", second_gradient->bond_gradient);
+}
+
 void SpgBody::visit_state(StateVisitor &visitor)
 {
+  visit_bonds(visitor);
   const auto visit = [&](const std::string &array, auto &data)
-  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
+  { visitor.visit_array(array, data); };
   visit("position", nodal_state.position);
   visit("velocity", nodal_state.velocity);
   visit("force", nodal_state.force);
   visit("inertia", nodal_state.inertia);
+  visit("previous position", previous_position);
   visit("kernel position", kernel_position);
   visit("kernel", kernel);
   visit("kernel volume", kernel_volume);
@@ -125,6 +188,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("total gradient", total_gradient);
   visit("moment inverse", moment_inverse);
   visit("bond stiffness", bond_stiffness);
+  visit("residual factor", residual_factor);
   visit("weak", weak);
   visit("failed bonds", n_failed);
   visit("stress", stress_data);
@@ -133,22 +197,17 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("stiffening", stiffening);
   visit("internal energy", internal_energy);
   visit("bond work", bond_work);
-  visit("residual factor", residual_factor);
-  visit("previous position", previous_position);
   visit("plastic work", plastic_work);
   visit("update stable step", update_stable_step);
-  visit("bond count", bonds.count);
-  visit("bond neighbour", bonds.neighbor);
-  visit("bond weight", bonds.weight);
-  visit("bond residual", bonds.residual);
-  visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
   if (second_gradient)
     second_gradient->visit_state(visit);
-  visitor.visit("step calibration", &step_calibration, 1, sizeof(double));
-  visitor.visit("initial calibration", &initial_calibration, 1, sizeof(double));
-  visitor.visit("last calibration", &last_calibration, 1, sizeof(std::size_t));
-  visitor.visit("kernel updates", &n_updates, 1, sizeof(std::size_t));
-  visitor.visit("largest change", &largest_change, 1, sizeof(double));
-  bonds.reconnect();
+  visitor.visit_value("stable step", current_stable_step);
+  visitor.visit_value("stable step item", stable_step_item);
+  visitor.visit_value("step calibration", step_calibration);
+  visitor.visit_value("initial calibration", initial_calibration);
+  visitor.visit_value("last calibration", last_calibration);
+  visitor.visit_value("kernel updates", n_updates);
+  visitor.visit_value("fallbacks", n_fallback);
+  visitor.visit_value("largest change", largest_change);
 }
 } // namespace sabot

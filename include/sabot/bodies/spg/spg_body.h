@@ -97,6 +97,9 @@ public:
 private:
   using Stabilization = SpgOptions::Stabilization;
 
+  // spg_output.cc
+  void visit_bonds(StateVisitor &visitor);
+
   // spg_body.cc
   void renumber(const BondList::Rows &rows);
 
