@@ -260,7 +260,7 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     {
       double bonds = 0.;
       for (std::size_t i = 0; i < spg->nodes().n_owned; ++i)
-        bonds += spg->bond_list().n_initial(i);
+        bonds += spg->bond_list().n_bonds(i);
       item.neighbours = sum_over_ranks(bonds, communicator) / item.n;
     }
     plan.items.push_back(item);

@@ -198,6 +198,7 @@ private:
   std::vector<double> stress_data;                    // [6][n_owned]
   std::vector<double> state_data;                     // [n_states][n_owned]
   std::vector<double> viscous_pressure;               // of the last step [Pa]
+  std::vector<double> stiffening; // only of materials that stiffen
   std::vector<double> internal_energy, bond_work, plastic_work; // [J]
   std::vector<double> update_stable_step; // [s] at the last kernel update
   double current_stable_step = 0.;
@@ -218,13 +219,13 @@ private:
     double strain[6][batch_size], spin[3][batch_size];
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
+    double mean_viscous_pressure[batch_size];
+    double deformation_gradient[9][batch_size];
     double extra_square[batch_size];
     // Sums over bonds of phi times: trial square, old with trial, old square
     double trial_square[batch_size], old_trial[batch_size],
         old_square[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
-    double mean_viscous_pressure[batch_size];
-    double deformation_gradient[9][batch_size];
     Mat residual_on_bond[batch_size];     // sum phi e (x) dx
     Mat residual_on_residual[batch_size]; // sum phi e (x) e
     Mat velocity_gradient[batch_size];    // F_new F_old^-1 - 1
