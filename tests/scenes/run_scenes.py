@@ -179,7 +179,6 @@ class Scenes(unittest.TestCase):
             ("End time=0", "a time"),
             ("Nonsense=1", "unknown entry"),
             ("Materials/metal/Johnson-Cook/D1=1", "would have no effect"),
-            ("Materials/metal/Model=Neo-Hookean", "FEM"),
         )
         for override, expected in cases:
             out = folder("bad")

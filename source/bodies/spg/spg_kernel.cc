@@ -42,19 +42,33 @@ void SpgBody::prepare_kernel()
 
 void SpgBody::update_topology(const unsigned int step, const double)
 {
-  // A particle that changed volume by half calls for an update, and so do
-  // bonds that fail; all ranks must agree.
-  double urgent = largest_change > options.kernel_update_change;
+  // Regular updates where something has deformed; at once where a volume has
+  // changed by half or a bond fails. All ranks must agree.
   const bool regular = step % options.kernel_update_interval == 0;
-  if (!regular && step % options.failure_check_interval == 0)
-    urgent = std::max(urgent, double(find_failed_bonds()));
-  if (!regular)
-    MPI_Allreduce(MPI_IN_PLACE, &urgent, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  if (regular || urgent > 0.)
+  double due = largest_change > options.kernel_update_change ||
+               (regular && has_strained());
+  if (step % options.failure_check_interval == 0 || regular)
+    due = std::max(due, double(find_failed_bonds()));
+  MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  if (due > 0.)
     update_kernel(step);
   if (options.stabilization == Stabilization::velocity_smoothing &&
       step % options.smoothing_interval == 0)
     smooth_velocities();
+}
+
+bool SpgBody::has_strained() const
+{
+  for (const Mat &F : gradient)
+  {
+    const Mat C = transpose(F) * F - Mat::identity();
+    const double square =
+        norm_square(C.row[0]) + norm_square(C.row[1]) + norm_square(C.row[2]);
+    if (0.25 * square >=
+        options.kernel_update_strain * options.kernel_update_strain)
+      return true;
+  }
+  return false;
 }
 
 void SpgBody::update_kernel(const std::size_t step)

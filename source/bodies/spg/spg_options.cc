@@ -49,6 +49,11 @@ void SpgOptions::declare_parameters(dealii::ParameterHandler &prm)
       "bond; search: between all pairs but those whose bond failed.");
   prm.declare_entry("Kernel update interval", "30", Integer(1),
                     "Steps between updates of the Lagrangian kernel.");
+  prm.declare_entry("Kernel update strain", "0.02",
+                    QuantityPattern(Dimension::none, 0., 1.),
+                    "An interval passes without update when no particle has "
+                    "strained by more than this since the last one; rotation "
+                    "needs none. 0: every interval.");
   prm.declare_entry("Kernel update change", "1.6",
                     QuantityPattern(Dimension::none, 1.05, 10.),
                     "A particle whose volume has changed by this ratio since "
@@ -135,6 +140,7 @@ SpgOptions SpgOptions::parse(const dealii::ParameterHandler &prm,
       choice<NeighborPolicy>(prm, "Neighbour policy",
                              {"Lagrangian list", "search undamaged", "search"});
   o.kernel_update_interval = prm.get_integer("Kernel update interval");
+  o.kernel_update_strain = get_quantity(prm, "Kernel update strain");
   o.kernel_update_change = get_quantity(prm, "Kernel update change");
   o.failure_check_interval = prm.get_integer("Failure check interval");
   o.failure_criterion = choice<FailureCriterion>(prm, "Failure criterion",

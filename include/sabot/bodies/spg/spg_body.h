@@ -105,6 +105,7 @@ private:
 
   // spg_kernel.cc
   void set_up_kernel();
+  bool has_strained() const;
   void update_kernel(const std::size_t step);
   template <typename Kernel>
   void compute_moments();
