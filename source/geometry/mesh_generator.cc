@@ -95,8 +95,8 @@ HexMesh make_graded_box(const BoxSpecification &box)
   }
   if (!zone_inside)
     throw InputError(box.zone_path + "/Size",
-                     "the zone reaches outside the body that it is carved "
-                     "from; make it smaller or move its centre");
+                     "the zone reaches outside the body that it is "
+                     "part of; make it smaller or move its centre");
 
   // Steps, and which cells stay: deal.II leaves out cells of this material id.
   std::vector<std::vector<double>> steps(3);
@@ -119,6 +119,7 @@ HexMesh make_graded_box(const BoxSpecification &box)
           inside = inside && std::abs(middle - box.zone_centre[d]) <
                                  0.5 * box.zone_size[d];
         }
+        inside = inside && box.zone_is_cut;
         ids[i][j][k] = inside ? dealii::numbers::invalid_material_id : 0;
         n_left += !inside;
       }
@@ -147,7 +148,7 @@ HexMesh make_graded_box(const BoxSpecification &box)
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
                       const std::array<double, 3> &centre,
-                      const double cell_size)
+                      const double cell_size, const unsigned int n_cuts)
 {
   // A core of n x n cells, bulged so that its corners lie at 0.55 r and its
   // edge middles a little further out than a square's, and m rings.
@@ -221,6 +222,26 @@ HexMesh make_cylinder(const double radius, const double length,
     p *= scale;
 
   dealii::GridTools::invert_all_negative_measure_cells(points, cells);
+  // Both planes of symmetry are lines of the mesh (n is even).
+  cells.erase(std::remove_if(cells.begin(), cells.end(),
+                             [&](const dealii::CellData<2> &cell)
+                             {
+                               dealii::Point<2> middle;
+                               for (const unsigned int v : cell.vertices)
+                                 middle += 0.25 * points[v];
+                               return (n_cuts > 0 && middle[0] < 0.) ||
+                                      (n_cuts > 1 && middle[1] < 0.);
+                             }),
+              cells.end());
+  if (n_cuts > 0)
+  {
+    for (dealii::Point<2> &p : points) // lines exactly in the planes
+      for (unsigned int d = 0; d < 2; ++d)
+        if (std::abs(p[d]) < 1e-12 * radius)
+          p[d] = 0.;
+    dealii::SubCellData none;
+    dealii::GridTools::delete_unused_vertices(points, cells, none);
+  }
   dealii::Triangulation<2> disc;
   disc.create_triangulation(points, cells, dealii::SubCellData());
   dealii::Triangulation<3> mesh;
@@ -229,10 +250,12 @@ HexMesh make_cylinder(const double radius, const double length,
   for (const auto &face : mesh.active_face_iterators())
     if (face->at_boundary())
     {
-      const double z = face->center()[2];
-      face->set_boundary_id(z < 1e-9 * length          ? 0
-                            : z > length * (1. - 1e-9) ? 1
-                                                       : 2);
+      const dealii::Point<3> p = face->center();
+      face->set_boundary_id(p[2] < 1e-9 * length                           ? 0
+                            : p[2] > length * (1. - 1e-9)                  ? 1
+                            : n_cuts > 0 && std::abs(p[0]) < 1e-9 * radius ? 3
+                            : n_cuts > 1 && std::abs(p[1]) < 1e-9 * radius ? 4
+                                                                           : 2);
     }
   // A cyclic permutation of the axes keeps cells right-handed.
   dealii::GridTools::transform(

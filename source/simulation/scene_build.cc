@@ -54,7 +54,9 @@ private:
   throw InputError(path, message);
 }
 
-/** Numbers of the named faces of a geometry. */
+const std::vector<std::string> box_faces = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
+/** Numbers of the named faces (or axes) among the allowed ones. */
 std::vector<unsigned int> face_ids(const std::string &path,
                                    const std::string &text,
                                    const std::vector<std::string> &allowed)
@@ -155,6 +157,10 @@ void Scene::build_bodies()
     if (prm.get("Discretization") == "SPG")
     {
       SpgOptions options = SpgOptions::parse(prm);
+      for (const unsigned int face : face_ids(
+               path + "/Symmetry faces", prm.get("Symmetry faces"), box_faces))
+        options.symmetry_faces |= 1 << face;
+      is_free = is_free && options.symmetry_faces == 0;
       options.initial_velocity = get_vector(prm, "Initial velocity");
       bodies.push_back(std::make_unique<SpgBody>(
           name, bodies.size(),
@@ -171,27 +177,26 @@ void Scene::build_bodies()
         std::find_if(carvings.begin(), carvings.end(),
                      [&](const Carving &c) { return c.body == name; });
     HexMesh mesh;
+    std::vector<std::string> faces = box_faces;
     if (prm.get("Geometry") == "cylinder")
     {
       if (carving != carvings.end())
         throw InputError("Bodies/" + carving->zone + "/Carve from",
                          "a zone can only be carved from a box");
-      options.clamped_boundary_ids =
-          face_ids(path + "/Clamped faces", prm.get("Clamped faces"),
-                   {"lower", "upper", "side"});
-      const std::string axis = prm.get("Axis");
+      const unsigned int axis = prm.get("Axis")[0] - 'x';
+      const std::string sector = prm.get("Sector");
+      const unsigned int n_cuts = sector == "full"   ? 0
+                                  : sector == "half" ? 1
+                                                     : 2;
+      faces = {"lower", "upper", "side"};
+      for (unsigned int cut = 0; cut < n_cuts; ++cut)
+        faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
       mesh = make_cylinder(get_quantity(prm, "Radius"),
-                           get_quantity(prm, "Length"),
-                           axis == "x"   ? 0
-                           : axis == "y" ? 1
-                                         : 2,
-                           centre, cell_size);
+                           get_quantity(prm, "Length"), axis, centre, cell_size,
+                           n_cuts);
     }
     else
     {
-      options.clamped_boundary_ids =
-          face_ids(path + "/Clamped faces", prm.get("Clamped faces"),
-                   {"-x", "+x", "-y", "+y", "-z", "+z"});
       BoxSpecification box;
       box.centre = centre;
       box.size = get_vector(prm, "Size");
@@ -205,9 +210,35 @@ void Scene::build_bodies()
         box.zone_size = carving->size;
         box.zone_path = "Bodies/" + carving->zone;
       }
+      const auto refined = get_vector(prm, "Refined zone size");
+      if (refined[0] > 0. && refined[1] > 0. && refined[2] > 0.)
+      {
+        if (box.has_zone)
+          throw InputError(path + "/Refined zone size",
+                           "a body has one zone, and \"" + carving->zone +
+                               "\" is carved from this one already");
+        box.has_zone = true;
+        box.zone_is_cut = false;
+        box.zone_centre = get_vector(prm, "Refined zone centre");
+        box.zone_size = refined;
+        box.zone_path = path;
+      }
       mesh = make_graded_box(box);
     }
-    is_free = is_free && options.clamped_boundary_ids.empty();
+    const auto ids = [&](const char *const entry)
+    { return face_ids(path + "/" + entry, prm.get(entry), faces); };
+    options.clamped_boundary_ids = ids("Clamped faces");
+    options.symmetry_boundary_ids = ids("Symmetry faces");
+    options.driven_boundary_ids = ids("Driven faces");
+    options.driven_velocity = get_vector(prm, "Prescribed velocity");
+    options.driven_components = {{false, false, false}};
+    for (const unsigned int axis :
+         face_ids(path + "/Prescribed components",
+                  prm.get("Prescribed components"), {"x", "y", "z"}))
+      options.driven_components[axis] = true;
+    is_free = is_free && options.clamped_boundary_ids.empty() &&
+              options.symmetry_boundary_ids.empty() &&
+              options.driven_boundary_ids.empty();
     bodies.push_back(std::make_unique<FemBody>(
         name, bodies.size(), std::move(mesh), material->second, options));
   }

@@ -69,11 +69,25 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
                       "Length of the cylinder.");
     prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z"),
                       "Direction of the cylinder's axis.");
+    prm.declare_entry(
+        "Sector", "full", Patterns::Selection("full|half|quarter"),
+        "Part of the cylinder that is modelled: half keeps the "
+        "positive side of the axis that follows the cylinder's "
+        "(x after z), quarter that of the other one, too. The cut "
+        "planes are called as a box's faces, e.g. -x, -y.");
   }
   else
     prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
                       QuantityPattern(Dimension::length, 3, 3, 1e-9, 1e3),
                       "Edge lengths of the box.");
+  const bool is_box = geometry == "box";
+  prm.declare_entry("Symmetry faces", "", names,
+                    std::string("Plane faces on which the model is cut: no "
+                                "velocity across them, no contact with them. "
+                                "Among ") +
+                        (is_box ? "-x, +x, -y, +y, -z, +z."
+                                : "lower, upper and the cut planes of a "
+                                  "sector."));
   if (discretization == "SPG")
   {
     prm.declare_entry("Nodal spacing", "1 mm",
@@ -95,16 +109,35 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
     {
       prm.declare_entry("Coarsest cell size", "1 km",
                         QuantityPattern(Dimension::length, 1e-9, 1e3),
-                        "Where a zone is carved from the body, cells grow away "
-                        "from it up to this size.");
+                        "Where a zone is carved from the body or refined, "
+                        "cells grow away from it up to this size.");
       prm.declare_entry("Growth ratio", "1.15",
                         QuantityPattern(Dimension::none, 1., 3.),
                         "Size of one cell over the last, away from the zone.");
+    }
+    if (geometry == "box")
+    {
+      prm.declare_entry("Refined zone size", "0 mm, 0 mm, 0 mm",
+                        QuantityPattern(Dimension::length, 3, 3, 0., 1e3),
+                        "Edge lengths of the part of the box that has cells of "
+                        "the cell size; 0: all of it.");
+      prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
+                        QuantityPattern(Dimension::length, 3, 3, -1e3, 1e3),
+                        "Position of its centre.");
     }
     prm.declare_entry("Clamped faces", "", names,
                       geometry == "box"
                           ? "Faces held fixed, among -x, +x, -y, +y, -z, +z."
                           : "Faces held fixed, among lower, upper, side.");
+    prm.declare_entry("Driven faces", "", names,
+                      "Faces whose nodes move with the prescribed velocity; "
+                      "the work done on them counts as external.");
+    prm.declare_entry("Prescribed velocity", "0 m/s, 0 m/s, 0 m/s",
+                      QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
+                      "Constant velocity of the driven faces.");
+    prm.declare_entry("Prescribed components", "x, y, z", names,
+                      "Components of the prescribed velocity that count; the "
+                      "others are free.");
     FemOptions::declare_parameters(prm);
   }
 }

@@ -15,6 +15,7 @@ struct BoxSpecification
   double coarsest_cell_size = 1e30;                               // [m]
   double growth_ratio = 1.;
   bool has_zone = false;
+  bool zone_is_cut = true; // else it is only where the cells are fine
   std::array<double, 3> zone_centre{{0., 0., 0.}}, zone_size{{0., 0., 0.}};
   std::string zone_path; // of the zone's body, for messages
 };
@@ -31,11 +32,14 @@ HexMesh make_graded_box(const BoxSpecification &box);
  * area pi r^2, so that volume and mass are exact; the rim nodes then lie
  * outside the circle by a fraction pi^2/(3 n^2) of r for n rim cells.
  * Boundary ids: 0 lower end, 1 upper end, 2 side. @p axis: 0, 1, 2.
+ * @p n_cuts: 1 keeps the half where the coordinate after the axis is not less
+ * than the centre's, 2 the quarter where the one after that is not, either; the
+ * cut planes have the boundary ids 3 and 4.
  */
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
                       const std::array<double, 3> &centre,
-                      const double cell_size);
+                      const double cell_size, const unsigned int n_cuts = 0);
 
 /** Grid planes between @p low and @p high: about @p fine between @p inner_low
     and @p inner_high, which are planes themselves, then growing outwards. */

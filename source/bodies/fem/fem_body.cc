@@ -4,8 +4,6 @@
 #include "sabot/bodies/body_report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <unordered_map>
 
 namespace sabot
 {
@@ -24,6 +22,23 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Quadratic bulk viscosity", "1.5",
                     QuantityPattern(Dimension::none, 0., 10.),
                     "Coefficient of rho h^2 (div v)^2 in compression.");
+  prm.declare_entry("Erosion plastic strain", "1e10",
+                    QuantityPattern(Dimension::none, 0.),
+                    "A cell is eroded when its effective plastic strain "
+                    "exceeds this. 1e10: never.");
+  prm.declare_entry("Erosion damage", "1e10",
+                    QuantityPattern(Dimension::none, 0.),
+                    "A cell is eroded when the material's damage reaches this "
+                    "(1: fully damaged). 1e10: never.");
+  prm.declare_entry("Erosion step", "0 s",
+                    QuantityPattern(Dimension::time, 0., 1.),
+                    "A cell is eroded when its own stable step falls below "
+                    "this. 0: never.");
+  prm.declare_entry("Inversion", "stop",
+                    dealii::Patterns::Selection("stop|erode|shrink step"),
+                    "What to do when a cell is about to turn inside out: stop "
+                    "the run, erode the cell, or (shrink step) let no step "
+                    "take more than a quarter of a cell's volume.");
 }
 
 FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
@@ -35,6 +50,13 @@ FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
   o.hourglass_coefficient = get_quantity(prm, "Hourglass coefficient");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
+  o.erosion_plastic_strain = get_quantity(prm, "Erosion plastic strain");
+  o.erosion_damage = get_quantity(prm, "Erosion damage");
+  o.erosion_step = get_quantity(prm, "Erosion step");
+  const std::string inversion = prm.get("Inversion");
+  o.inversion = inversion == "erode"  ? Inversion::erode
+                : inversion == "stop" ? Inversion::stop
+                                      : Inversion::shrink;
   return o;
 }
 
@@ -46,6 +68,22 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
       state_variables(this->material->state_variables()),
       n_states(count_states(state_variables))
 {
+  for (const unsigned int boundary : options.symmetry_boundary_ids)
+    symmetry_axes[boundary] = symmetry_axis(boundary);
+  const auto need = [&](const double limit, const std::string &variable,
+                        const std::string &entry)
+  {
+    bool known = false;
+    for (const StateVariable &v : state_variables)
+      known = known || v.name == variable;
+    if (limit < FemOptions::never && !known)
+      throw InputError("Bodies/" + name + "/" + entry,
+                       "the body's material has no " + variable +
+                           "; use a law that has it or remove the entry");
+  };
+  need(options.erosion_plastic_strain, "effective plastic strain",
+       "Erosion plastic strain");
+  need(options.erosion_damage, "damage", "Erosion damage");
 }
 
 void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -139,37 +177,7 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   }
   nodal_state.inertia = nodal_state.lumped_mass;
 
-  double total_area = 0.;
-  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
-  {
-    std::array<std::size_t, 4> face;
-    bool here = true, fixed = std::count(options.clamped_boundary_ids.begin(),
-                                         options.clamped_boundary_ids.end(),
-                                         mesh.boundary_id[f]) > 0;
-    Vec x[4];
-    for (int a = 0; a < 4; ++a)
-    {
-      const GlobalIndex node = mesh.boundary_faces[f][a];
-      const auto &p = mesh.nodes[node];
-      x[a] = vec(p[0], p[1], p[2]);
-      const auto found = local.find(node);
-      here = here && found != local.end();
-      if (found == local.end())
-        continue;
-      face[a] = found->second;
-      if (fixed && found->second < nodal_state.n_owned)
-        clamped.push_back(found->second);
-    }
-    total_area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
-    if (here)
-    {
-      boundary_faces.push_back(face);
-      boundary_face_id.push_back(f);
-    }
-  }
-  typical_spacing = std::sqrt(total_area / mesh.boundary_faces.size());
-  std::sort(clamped.begin(), clamped.end());
-  clamped.erase(std::unique(clamped.begin(), clamped.end()), clamped.end());
+  set_up_boundary(local);
 
   gradient.assign(n, Mat::identity());
   stress_data.assign(6 * n, 0.);
@@ -182,13 +190,19 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   internal_energy.assign(n, 0.);
   hourglass_energy.assign(n, 0.);
   plastic_work.assign(n, 0.);
+  if (options.erodes())
+    set_up_erosion();
   mesh = HexMesh();
 }
 
 void FemBody::impose_velocities(const double)
 {
-  for (const std::size_t i : clamped)
-    nodal_state.velocity[i] = Vec{};
+  constraints.impose(nodal_state);
+}
+
+void FemBody::accumulate_work(const double half_dt)
+{
+  constraints.accumulate_work(nodal_state, half_dt);
 }
 
 const double *FemBody::state_array(const std::string &wanted) const
@@ -198,9 +212,17 @@ const double *FemBody::state_array(const std::string &wanted) const
 
 void FemBody::add_energies(EnergyLedger &ledger) const
 {
+  const std::vector<char> *const is_free = free_nodes();
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    ledger.kinetic.add(0.5 * nodal_state.inertia[i] *
-                       norm_square(nodal_state.velocity[i]));
+    (is_free != nullptr && (*is_free)[i] ? ledger.eroded : ledger.kinetic)
+        .add(0.5 * nodal_state.inertia[i] *
+             norm_square(nodal_state.velocity[i]));
+  ledger.external.add(constraints.work());
+  if (erosion)
+  {
+    ledger.eroded.add(erosion->energy);
+    ledger.plastic_work.add(erosion->plastic_work);
+  }
   for (std::size_t e = 0; e < connectivity.size(); ++e)
     if (owned_cell[e])
     {
@@ -226,12 +248,14 @@ Measures FemBody::measure() const
     }
   ExactSum::reduce({&internal, &hourglass}, communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = measure_nodes(nodal_state, communicator);
+  Measures measures = measure_nodes(nodal_state, communicator, free_nodes());
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"hourglass energy", "J", hourglass.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
   if (temperature)
     measures.push_back({"temperature max", "K", top[1]});
+  if (erosion)
+    add_erosion_measures(measures);
   return measures;
 }
 
@@ -277,6 +301,28 @@ void FemBody::visit_state(StateVisitor &visitor)
   visit("velocity", nodal_state.velocity);
   visit("force", nodal_state.force);
   visit("inertia", nodal_state.inertia);
+  if (erosion)
+  {
+    // A reader must know which cells are left before it fills their arrays.
+    visit("alive cells", erosion->alive);
+    if (std::count(erosion->alive.begin(), erosion->alive.end(), 1) !=
+        std::ptrdiff_t(n_local_cells()))
+    {
+      std::vector<std::uint32_t> dead;
+      for (const std::uint32_t cell : erosion->initial)
+        if (!erosion->alive[cell])
+          dead.push_back(cell);
+      update_boundary(dead);
+      compact();
+    }
+    visitor.visit("eroded mass", &erosion->mass, 1, sizeof(ExactSum));
+    visitor.visit("eroded energy", &erosion->energy, 1, sizeof(ExactSum));
+    visitor.visit("eroded plastic work", &erosion->plastic_work, 1,
+                  sizeof(ExactSum));
+    visitor.visit("eroded cells", &erosion->n_cells, 1, sizeof(ExactSum));
+    visitor.visit("surface version", &surface_version, 1,
+                  sizeof(surface_version));
+  }
   visit("gradient", gradient);
   visit("hourglass modes", hourglass_modes);
   visit("viscous pressure", viscous_pressure);
@@ -285,24 +331,8 @@ void FemBody::visit_state(StateVisitor &visitor)
   visit("internal energy", internal_energy);
   visit("hourglass energy", hourglass_energy);
   visit("plastic work", plastic_work);
+  visitor.visit("external work", &constraints.work(), 1, sizeof(ExactSum));
   visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
   visitor.visit("stable step item", &stable_step_item, 1, sizeof(GlobalIndex));
-}
-
-ContactSurface FemBody::contact_surface() const
-{
-  ContactSurface surface;
-  surface.faces = boundary_faces;
-  surface.face_id = boundary_face_id;
-  for (const auto &face : boundary_faces)
-    for (const std::size_t a : face)
-      if (a < nodal_state.n_owned)
-        surface.nodes.push_back(a);
-  std::sort(surface.nodes.begin(), surface.nodes.end());
-  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()),
-                      surface.nodes.end());
-  surface.bulk_modulus = material->bulk_modulus();
-  surface.spacing = typical_spacing;
-  return surface;
 }
 } // namespace sabot

@@ -1,4 +1,5 @@
 #include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/fem/hourglass.h"
 #include "sabot/kernels/stress_update.h"
 
 #include <algorithm>
@@ -10,35 +11,6 @@ namespace
 {
 /** Hexahedra have no stress beside the stress. */
 const double no_extra[64] = {};
-
-/** The four hourglass base vectors summed with nodal values, by sums and
-    differences of pairs (corner order: VTK). */
-inline void hourglass_sums(const Vec x[8], Vec mode[4])
-{
-  // h_1 = (++--, --++), h_2 = (+--+, -++-), h_3 = (+-+-, +-+-),
-  // h_4 = (-+-+, +-+-)
-  const Vec a = x[0] + x[1] - x[2] - x[3], b = x[4] + x[5] - x[6] - x[7];
-  const Vec c = x[0] - x[1] - x[2] + x[3], d = x[4] - x[5] - x[6] + x[7];
-  const Vec e = x[0] - x[1] + x[2] - x[3], f = x[4] - x[5] + x[6] - x[7];
-  mode[0] = a - b;
-  mode[1] = c - d;
-  mode[2] = e + f;
-  mode[3] = f - e;
-}
-
-/** Sum over modes of h_a times modal values, for the eight corners. */
-inline void hourglass_spread(const Vec mode[4], Vec f[8])
-{
-  const Vec p = mode[2] - mode[3], m = mode[2] + mode[3];
-  f[0] = mode[0] + mode[1] + p;
-  f[1] = mode[0] - mode[1] - p;
-  f[2] = p - mode[0] - mode[1];
-  f[3] = mode[1] - mode[0] - p;
-  f[4] = m - mode[0] - mode[1];
-  f[5] = mode[1] - mode[0] - m;
-  f[6] = mode[0] + mode[1] + m;
-  f[7] = mode[0] - mode[1] - m;
-}
 } // namespace
 
 void FemBody::update_ghosts()
@@ -67,6 +39,7 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
                          const double dt)
 {
   const double c = material->sound_speed(), density = material->density();
+  const bool keep_steps = options.erosion_step > 0.;
   for (std::size_t e = begin; e < end; ++e)
   {
     const auto &nodes = connectivity[e];
@@ -75,6 +48,9 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
     for (int a = 0; a < 8; ++a)
       add_outer(F, nodal_state.position[nodes[a]], g.mean_gradient[a]);
     const Mat F_old = gradient[e];
+    const double J_old = determinant(F_old);
+    if (!(determinant(F) > 2. / 3. * J_old))
+      F = avoid_inversion(e, F);
     gradient[e] = F;
     const Mat l = (F - F_old) * inverse(0.5 * (F + F_old));
     double J;
@@ -91,7 +67,7 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
     batch.spin[1][k] = 0.5 * (l(1, 2) - l(2, 1));
     batch.spin[2][k] = 0.5 * (l(0, 2) - l(2, 0));
     batch.jacobian[k] = J;
-    batch.half_volume[k] = 0.25 * volume[e] * (J + determinant(F_old));
+    batch.half_volume[k] = 0.25 * volume[e] * (J + J_old);
     batch.inverse_transposed[k] = transpose(F_inverse);
     // Eigenvalue bound of the cell, and its smallest dimension with it.
     double thickness;
@@ -100,27 +76,52 @@ void FemBody::kinematics(const std::size_t begin, const std::size_t end,
     batch.viscous_pressure[k] = bulk_viscosity_pressure(
         density / J, c, thickness, rate, options.bulk_viscosity_linear,
         options.bulk_viscosity_quadratic);
-    if (!(J > 0.))
-    {
-      const Vec x = nodal_state.position[nodes[0]];
-      throw PhysicsError(
-          "body " + name + ", cell " + std::to_string(cell_id[e]) + " near (" +
-          std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " +
-          std::to_string(x[2]) +
-          ") m is turned inside out (det F = " + std::to_string(J) + ")");
-    }
     // Bulk viscosity shortens the step: damping ratio xi of the cell's own
     // compression.
     const double xi =
         options.bulk_viscosity_linear +
         options.bulk_viscosity_quadratic * thickness * std::max(0., -rate) / c;
-    const double step = elastic_step * (std::sqrt(1. + xi * xi) - xi);
+    double step = elastic_step * (std::sqrt(1. + xi * xi) - xi);
+    if (options.inversion == FemOptions::Inversion::shrink && J < J_old)
+      step = std::min(step, 0.25 * dt * J / (J_old - J));
+    if (keep_steps)
+      erosion->step[e] = step;
     if (step < current_stable_step)
     {
       current_stable_step = step;
       stable_step_item = cell_id[e];
     }
   }
+}
+
+Mat FemBody::avoid_inversion(const std::size_t e, const Mat &F)
+{
+  const double J = determinant(F);
+  using Inversion = FemOptions::Inversion;
+  if (options.inversion == Inversion::erode)
+  {
+    erosion->inverting.push_back(e);
+    // Already beyond: the cell rests as it was until it goes.
+    return J > 0. ? F : gradient[e];
+  }
+  if (options.inversion == Inversion::shrink && J > 0.)
+    return F;
+  const Vec x = nodal_state.position[connectivity[e][0]];
+  throw PhysicsError(
+      "body " + name + ", cell " + std::to_string(cell_id[e]) + " near (" +
+      std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " +
+      std::to_string(x[2]) +
+      ") m is about to turn inside out: one step took its det F from " +
+      std::to_string(determinant(gradient[e])) + " to " + std::to_string(J) +
+      "; take a smaller step factor, or set the body's \"Inversion\" to erode "
+      "or shrink step");
+}
+
+double FemBody::hourglass_stiffness(const std::size_t e, const double J) const
+{
+  const double c = material->sound_speed();
+  return options.hourglass_coefficient * 0.125 * material->density() * c * c *
+         std::cbrt(volume[e] * J);
 }
 
 double FemBody::cell_stable_step(const std::size_t e, const Mat &F_inverse,
@@ -198,8 +199,7 @@ void FemBody::scatter_forces(const std::size_t begin, const std::size_t end,
 {
   const std::size_t n = connectivity.size();
   const bool viscous = options.hourglass == FemOptions::Hourglass::viscous;
-  const double c = material->sound_speed(), density = material->density(),
-               modulus = density * c * c;
+  const double c = material->sound_speed(), density = material->density();
   for (std::size_t e = begin; e < end; ++e)
   {
     const std::size_t k = e - begin;
@@ -220,11 +220,11 @@ void FemBody::scatter_forces(const std::size_t begin, const std::size_t end,
     for (int a = 0; a < 8; ++a)
       x[a] = nodal_state.position[nodes[a]];
     hourglass_sums(x, mode);
-    const double size = std::cbrt(volume[e] * batch.jacobian[k]);
     HourglassModes &modes = hourglass_modes[e];
     if (viscous)
     {
       const Mat F_inverse = transpose(batch.inverse_transposed[k]);
+      const double size = std::cbrt(volume[e] * batch.jacobian[k]);
       const double coefficient =
           options.hourglass_coefficient * 0.25 * density * c * size * size;
       Vec v[8], rate[4];
@@ -249,8 +249,7 @@ void FemBody::scatter_forces(const std::size_t begin, const std::size_t end,
     }
     else
     {
-      const double coefficient =
-          options.hourglass_coefficient * 0.125 * modulus * size;
+      const double coefficient = hourglass_stiffness(e, batch.jacobian[k]);
       double energy = 0.;
       for (int m = 0; m < 4; ++m)
       {

@@ -5,6 +5,7 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/particle_cloud.h"
 #include "sabot/materials/material.h"
 
@@ -30,6 +31,7 @@ struct SpgOptions
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  std::uint8_t symmetry_faces = 0; // bits as in ParticleCloud::on_face
 
   static void declare_parameters(dealii::ParameterHandler &prm);
   static SpgOptions parse(const dealii::ParameterHandler &prm);
@@ -64,7 +66,10 @@ public:
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
-  void impose_velocities(const double) override {}
+  void impose_velocities(const double) override
+  {
+    constraints.impose(nodal_state);
+  }
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
@@ -140,6 +145,7 @@ private:
 
   // Owned particles
   std::vector<std::uint8_t> on_face;
+  VelocityConstraints constraints; // symmetry planes
   std::vector<double> reference_volume, kernel_volume;
   AlignedVector<Mat> gradient;       // F since the last kernel update
   AlignedVector<Mat> total_gradient; // F up to the last kernel update

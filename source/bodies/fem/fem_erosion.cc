@@ -1,0 +1,280 @@
+#include "sabot/bodies/body_report.h"
+#include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/fem/hourglass.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+/** Corners of the faces of a cell in VTK order, outward normal by the
+    right-hand rule: -x, +x, -y, +y, -z, +z. */
+constexpr int face_corner[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
+                                   {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+} // namespace
+
+void FemBody::set_up_erosion()
+{
+  erosion = std::make_unique<Erosion>();
+  Erosion &er = *erosion;
+  const std::size_t n = connectivity.size();
+  er.nodes = connectivity;
+  er.id = cell_id;
+  er.alive.assign(n, 1);
+  er.cells_of_node.assign(nodal_state.size(), 0);
+  er.free_node.assign(nodal_state.n_owned, 0);
+  er.n_boundary_faces = mesh.boundary_faces.size();
+  if (options.erosion_step > 0.)
+    er.step.assign(n, std::numeric_limits<double>::max());
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    er.initial.push_back(e);
+    for (const std::uint32_t a : connectivity[e])
+      ++er.cells_of_node[a];
+  }
+
+  // Who is across each face: equal corners, sorted.
+  struct Face
+  {
+    std::array<std::size_t, 4> corner;
+    std::int32_t cell;
+    int number;
+    bool operator<(const Face &o) const { return corner < o.corner; }
+  };
+  std::vector<Face> faces;
+  for (std::size_t e = 0; e < n; ++e)
+    for (int f = 0; f < 6; ++f)
+    {
+      Face face{{}, std::int32_t(e), f};
+      for (int a = 0; a < 4; ++a)
+        face.corner[a] = connectivity[e][face_corner[f][a]];
+      std::sort(face.corner.begin(), face.corner.end());
+      faces.push_back(face);
+    }
+  std::sort(faces.begin(), faces.end());
+  er.across.assign(n, {{-1, -1, -1, -1, -1, -1}});
+  for (std::size_t i = 1; i < faces.size(); ++i)
+    if (faces[i].corner == faces[i - 1].corner)
+    {
+      er.across[faces[i].cell][faces[i].number] = faces[i - 1].cell;
+      er.across[faces[i - 1].cell][faces[i - 1].number] = faces[i].cell;
+    }
+  for (const auto &boundary : boundary_faces)
+  {
+    Face face{boundary, 0, 0};
+    std::sort(face.corner.begin(), face.corner.end());
+    const auto found = std::lower_bound(faces.begin(), faces.end(), face);
+    er.face_cell.push_back(found->cell);
+  }
+}
+
+const std::vector<char> *FemBody::free_nodes() const
+{
+  return erosion ? &erosion->free_node : nullptr;
+}
+
+std::vector<std::size_t> FemBody::cells_to_erode() const
+{
+  std::vector<std::size_t> cells = erosion->inverting;
+  const std::size_t n = connectivity.size();
+  const auto add_above = [&](const double *const values, const double limit)
+  {
+    for (std::size_t e = 0; e < n; ++e)
+      if (values[e] >= limit)
+        cells.push_back(e);
+  };
+  if (options.erosion_plastic_strain < FemOptions::never)
+    add_above(state_array("effective plastic strain"),
+              options.erosion_plastic_strain);
+  if (options.erosion_damage < FemOptions::never)
+    add_above(state_array("damage"), options.erosion_damage);
+  if (options.erosion_step > 0.)
+    for (std::size_t e = 0; e < n; ++e)
+      if (erosion->step[e] < options.erosion_step)
+        cells.push_back(e);
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+void FemBody::update_topology(const unsigned int, const double)
+{
+  if (!erosion)
+    return;
+  const std::vector<std::size_t> cells = cells_to_erode();
+  erosion->inverting.clear();
+  // All ranks must search their contacts anew.
+  int any = !cells.empty();
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, communicator);
+  if (any == 0)
+    return;
+  ++surface_version;
+  erode(cells);
+}
+
+void FemBody::cell_forces(const std::size_t e, Vec force[8]) const
+{
+  // As scatter_forces() left them: the state has not changed since.
+  const std::size_t n = connectivity.size();
+  double J;
+  const Mat F_inverse = inverse(gradient[e], J);
+  const double *const s = &stress_data[e];
+  const double q = viscous_pressure[e];
+  const Mat sigma = {{vec(s[0] - q, s[3 * n], s[5 * n]),
+                      vec(s[3 * n], s[n] - q, s[4 * n]),
+                      vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
+  Mat P = (volume[e] * J) * (sigma * transpose(F_inverse));
+  Vec x[8], mode[4];
+  for (int a = 0; a < 8; ++a)
+    x[a] = nodal_state.position[connectivity[e][a]];
+  hourglass_sums(x, mode);
+  const HourglassModes &modes = hourglass_modes[e];
+  if (options.hourglass == FemOptions::Hourglass::viscous)
+    for (int m = 0; m < 4; ++m)
+    {
+      add_outer(P, -modes.mode[m], F_inverse * mode[m]);
+      mode[m] = modes.mode[m];
+    }
+  else
+  {
+    const double coefficient = hourglass_stiffness(e, J);
+    for (int m = 0; m < 4; ++m)
+    {
+      mode[m] = coefficient * (mode[m] - gradient[e] * modes.mode[m]);
+      add_outer(P, -mode[m], modes.mode[m]);
+    }
+  }
+  hourglass_spread(mode, force);
+  for (int a = 0; a < 8; ++a)
+    force[a] = -(P * geometry[e].mean_gradient[a] + force[a]);
+}
+
+void FemBody::erode(const std::vector<std::size_t> &cells)
+{
+  Erosion &er = *erosion;
+  std::vector<std::uint32_t> dead;
+  for (const std::size_t e : cells)
+  {
+    // The half step that starts now must not feel the cell any more.
+    Vec force[8];
+    cell_forces(e, force);
+    for (int a = 0; a < 8; ++a)
+      nodal_state.force[connectivity[e][a]] -= force[a];
+    dead.push_back(er.initial[e]);
+    er.alive[er.initial[e]] = 0;
+    if (!owned_cell[e])
+      continue;
+    er.mass.add(material->density() * volume[e]);
+    er.energy.add(internal_energy[e]);
+    er.energy.add(hourglass_energy[e]);
+    er.plastic_work.add(plastic_work[e]);
+    er.n_cells.add(1.);
+  }
+  update_boundary(dead);
+  compact();
+}
+
+void FemBody::update_boundary(const std::vector<std::uint32_t> &dead)
+{
+  Erosion &er = *erosion;
+  for (const std::uint32_t cell : dead)
+    for (const std::uint32_t a : er.nodes[cell])
+      if (--er.cells_of_node[a] == 0 && a < nodal_state.n_owned)
+        er.free_node[a] = 1;
+  // Faces of dead cells go, faces of the living behind them come.
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < boundary_faces.size(); ++f)
+    if (er.alive[er.face_cell[f]])
+    {
+      boundary_faces[kept] = boundary_faces[f];
+      boundary_face_id[kept] = boundary_face_id[f];
+      er.face_cell[kept++] = er.face_cell[f];
+    }
+  boundary_faces.resize(kept);
+  boundary_face_id.resize(kept);
+  er.face_cell.resize(kept);
+  for (const std::uint32_t cell : dead)
+    for (const std::int32_t other : er.across[cell])
+    {
+      if (other < 0 || !er.alive[other])
+        continue;
+      const auto &back = er.across[other];
+      const int f = std::find(back.begin(), back.end(), std::int32_t(cell)) -
+                    back.begin();
+      std::array<std::size_t, 4> face;
+      for (int a = 0; a < 4; ++a)
+        face[a] = er.nodes[other][face_corner[f][a]];
+      boundary_faces.push_back(face);
+      boundary_face_id.push_back(er.n_boundary_faces + 6 * er.id[other] + f);
+      er.face_cell.push_back(other);
+    }
+}
+
+void FemBody::compact()
+{
+  Erosion &er = *erosion;
+  const std::size_t n = connectivity.size();
+  std::vector<std::size_t> kept;
+  for (std::size_t e = 0; e < n; ++e)
+    if (er.alive[er.initial[e]])
+      kept.push_back(e);
+  const auto keep = [&](auto &array)
+  {
+    for (std::size_t e = 0; e < kept.size(); ++e)
+      array[e] = array[kept[e]];
+    array.resize(kept.size());
+  };
+  const auto keep_rows = [&](std::vector<double> &array)
+  {
+    const std::size_t n_rows = n > 0 ? array.size() / n : 0;
+    for (std::size_t r = 0; r < n_rows; ++r)
+      for (std::size_t e = 0; e < kept.size(); ++e)
+        array[r * kept.size() + e] = array[r * n + kept[e]];
+    array.resize(n_rows * kept.size());
+  };
+  keep(connectivity);
+  keep(geometry);
+  keep(hourglass_modes);
+  keep(gradient);
+  keep(viscous_pressure);
+  keep(volume);
+  keep(cell_id);
+  keep(owned_cell);
+  keep(internal_energy);
+  keep(hourglass_energy);
+  keep(plastic_work);
+  keep(er.initial);
+  if (!er.step.empty())
+    keep(er.step);
+  keep_rows(stress_data);
+  keep_rows(state_data);
+}
+
+void FemBody::add_erosion_measures(Measures &measures) const
+{
+  ExactSum mass = erosion->mass, n_cells = erosion->n_cells, free_mass, kinetic,
+           momentum[3];
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    if (erosion->free_node[i])
+    {
+      const double m = nodal_state.lumped_mass[i];
+      const Vec v = nodal_state.velocity[i];
+      free_mass.add(m);
+      kinetic.add(0.5 * m * norm_square(v));
+      for (int d = 0; d < 3; ++d)
+        momentum[d].add(m * v[d]);
+    }
+  ExactSum::reduce({&mass, &n_cells, &free_mass, &kinetic, &momentum[0],
+                    &momentum[1], &momentum[2]},
+                   communicator);
+  measures.push_back({"eroded mass", "kg", mass.value()});
+  measures.push_back({"eroded cells", "1", n_cells.value()});
+  measures.push_back({"free node mass", "kg", free_mass.value()});
+  measures.push_back({"free node kinetic energy", "J", kinetic.value()});
+  for (int d = 0; d < 3; ++d)
+    measures.push_back({std::string("eroded momentum ") + "xyz"[d], "kg m/s",
+                        momentum[d].value()});
+}
+} // namespace sabot
