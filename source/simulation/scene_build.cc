@@ -4,11 +4,14 @@
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/mesh_import.h"
 #include "sabot/geometry/partition.h"
+#include "sabot/geometry/round_bodies.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace sabot
 {
@@ -75,6 +78,23 @@ std::vector<unsigned int> face_ids(const std::string &path,
     ids.push_back(found - allowed.begin());
   }
   return ids;
+}
+/** A file that an entry names, looked up in the folder of the parameter file
+    that sets it (of the scene, for an override). */
+std::string beside(const ParameterFile &file, const std::string &path,
+                   const std::string &name)
+{
+  if (name.empty())
+    throw InputError(path, "needs the name of a mesh file");
+  if (name[0] == '/')
+    return name;
+  const std::string origin = file.origin(path);
+  const std::string from =
+      origin.compare(0, 5, "--set") == 0 ? file.file_name : origin;
+  const std::size_t slash = from.find_last_of('/');
+  const std::string relative =
+      slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
+  return std::filesystem::absolute(relative).string();
 }
 } // namespace
 
@@ -178,11 +198,11 @@ void Scene::build_bodies()
                      [&](const Carving &c) { return c.body == name; });
     HexMesh mesh;
     std::vector<std::string> faces = box_faces;
+    if (carving != carvings.end() && prm.get("Geometry") != "box")
+      throw InputError("Bodies/" + carving->zone + "/Carve from",
+                       "a zone can only be carved from a box");
     if (prm.get("Geometry") == "cylinder")
     {
-      if (carving != carvings.end())
-        throw InputError("Bodies/" + carving->zone + "/Carve from",
-                         "a zone can only be carved from a box");
       const unsigned int axis = prm.get("Axis")[0] - 'x';
       const std::string sector = prm.get("Sector");
       const unsigned int n_cuts = sector == "full"   ? 0
@@ -194,6 +214,46 @@ void Scene::build_bodies()
       mesh = make_cylinder(get_quantity(prm, "Radius"),
                            get_quantity(prm, "Length"), axis, centre, cell_size,
                            n_cuts);
+    }
+    else if (prm.get("Geometry") == "sphere")
+    {
+      faces = {"surface"};
+      mesh = make_sphere(get_quantity(prm, "Radius"), centre, cell_size);
+    }
+    else if (prm.get("Geometry") == "projectile")
+    {
+      faces = {"end", "side"};
+      ProjectileSpecification projectile;
+      projectile.radius = get_quantity(prm, "Radius");
+      projectile.shaft_length = get_quantity(prm, "Length");
+      projectile.nose_length = get_quantity(prm, "Nose length");
+      const std::string nose = prm.get("Nose"), axis = prm.get("Axis");
+      projectile.nose = nose == "ogive"     ? Nose::ogive
+                        : nose == "conical" ? Nose::conical
+                                            : Nose::spherical;
+      if (projectile.nose == Nose::ogive &&
+          projectile.nose_length < projectile.radius)
+        throw InputError(path + "/Nose length",
+                         "a tangent ogive is at least as long as its radius; "
+                         "use a spherical nose or a longer one");
+      projectile.axis = axis.back() - 'x';
+      projectile.towards_positive = axis[0] != '-';
+      projectile.centre = centre;
+      projectile.cell_size = cell_size;
+      mesh = make_projectile(projectile);
+    }
+    else if (prm.get("Geometry") == "file")
+    {
+      const std::string resolved =
+          beside(file, path + "/Mesh file", prm.get("Mesh file"));
+      prm.set("Mesh file", resolved); // for the expanded parameters
+      mesh =
+          read_mesh(resolved, get_quantity(prm, "Mesh unit"), centre,
+                    prm.get_integer("Mesh material id"), path + "/Mesh file");
+      faces.clear();
+      for (const unsigned int id : mesh.boundary_id)
+        while (faces.size() <= id)
+          faces.push_back(std::to_string(faces.size()));
     }
     else
     {
@@ -225,6 +285,12 @@ void Scene::build_bodies()
       }
       mesh = make_graded_box(box);
     }
+    const MeshQuality quality = measure_quality(mesh);
+    notes.push_back("mesh of " + name + ": " + quality.text());
+    if (quality.scaled_jacobian <= 0.)
+      throw InputError(path + "/Geometry",
+                       "the mesh has a cell that is inside out or flat: " +
+                           quality.text());
     const auto ids = [&](const char *const entry)
     { return face_ids(path + "/" + entry, prm.get(entry), faces); };
     options.clamped_boundary_ids = ids("Clamped faces");

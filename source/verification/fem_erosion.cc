@@ -105,9 +105,9 @@ std::vector<Check> burst_block()
   const auto before = world.momenta();
   const double energy = world.total_energy();
   double worst = 0.;
-  for (int step = 0; step < 200; ++step)
+  for (int step = 0; step < 800; ++step)
   {
-    world.advance(0.8);
+    world.advance(0.2);
     worst = std::max(worst, std::abs(world.total_energy() / energy - 1.));
   }
   const auto after = world.momenta();

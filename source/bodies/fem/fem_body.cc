@@ -9,6 +9,11 @@ namespace sabot
 {
 void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
 {
+  prm.declare_entry("Integration", "one point",
+                    dealii::Patterns::Selection("one point|B-bar"),
+                    "one point: fast, with hourglass control; B-bar: eight "
+                    "points with the mean volumetric strain, no hourglass "
+                    "modes, no volumetric locking, several times the cost.");
   prm.declare_entry("Hourglass control", "viscous",
                     dealii::Patterns::Selection("viscous|stiffness"),
                     "Flanagan-Belytschko; viscous for large plastic flow, "
@@ -44,6 +49,8 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
 FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
 {
   FemOptions o;
+  o.integration = prm.get("Integration") == "B-bar" ? Integration::b_bar
+                                                    : Integration::one_point;
   o.hourglass = prm.get("Hourglass control") == "viscous"
                     ? Hourglass::viscous
                     : Hourglass::stiffness;
@@ -65,8 +72,7 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                  const FemOptions &options)
     : Body(name, id), mesh(std::move(mesh)), material(std::move(material)),
       options(options), n_global_cells(this->mesh.cells.size()),
-      state_variables(this->material->state_variables()),
-      n_states(count_states(state_variables))
+      cells(Hexahedra::make(name, options, this->material))
 {
   for (const unsigned int boundary : options.symmetry_boundary_ids)
     symmetry_axes[boundary] = symmetry_axis(boundary);
@@ -74,7 +80,7 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                         const std::string &entry)
   {
     bool known = false;
-    for (const StateVariable &v : state_variables)
+    for (const StateVariable &v : cells->states())
       known = known || v.name == variable;
     if (limit < FemOptions::never && !known)
       throw InputError("Bodies/" + name + "/" + entry,
@@ -93,7 +99,7 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   MPI_Comm_rank(communicator, &rank);
 
   // Cells of the owned nodes, then the nodes of these cells.
-  std::vector<GlobalIndex> owned, ghosts;
+  std::vector<GlobalIndex> owned, ghosts, cell_id;
   for (std::size_t i = 0; i < owner.size(); ++i)
     if (owner[i] == rank)
       owned.push_back(i);
@@ -141,55 +147,24 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     nodal_state.lumped_mass[i] = 0.;
   }
 
-  // Reference geometry of the cells; masses add up in global cell order.
-  const std::size_t n = cell_id.size();
-  geometry.resize(n);
-  hourglass_modes.resize(n);
-  viscous_pressure.assign(n, 0.);
-  constexpr int h[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
-                           {1, -1, -1, 1, -1, 1, 1, -1},
-                           {1, -1, 1, -1, 1, -1, 1, -1},
-                           {-1, 1, -1, 1, 1, -1, 1, -1}};
-  for (std::size_t e = 0; e < n; ++e)
+  // Masses add up in global cell order.
+  std::vector<std::array<std::uint32_t, 8>> connectivity;
+  for (const GlobalIndex c : cell_id)
   {
-    const GlobalIndex c = cell_id[e];
     std::array<std::uint32_t, 8> nodes;
-    HourglassModes &modes = hourglass_modes[e];
-    for (Vec &mode : modes.mode)
-      mode = Vec{};
-    geometry[e].gradient_square = Mat::zero();
     for (int a = 0; a < 8; ++a)
     {
       nodes[a] = local.at(mesh.cells[c][a]);
-      const auto &B = mesh.mean_gradient[c][a];
-      const Vec gradient = vec(B[0], B[1], B[2]);
-      geometry[e].mean_gradient[a] = gradient;
-      add_outer(geometry[e].gradient_square, gradient, gradient);
       nodal_state.lumped_mass[nodes[a]] +=
           0.125 * material->density() * mesh.volume[c];
-      if (options.hourglass == FemOptions::Hourglass::stiffness)
-        for (int m = 0; m < 4; ++m)
-          modes.mode[m] +=
-              double(h[m][a]) * nodal_state.reference_position[nodes[a]];
     }
     connectivity.push_back(nodes);
-    volume.push_back(mesh.volume[c]);
   }
   nodal_state.inertia = nodal_state.lumped_mass;
 
   set_up_boundary(local);
 
-  gradient.assign(n, Mat::identity());
-  stress_data.assign(6 * n, 0.);
-  state_data.resize(n_states * n);
-  std::size_t s = 0;
-  for (const StateVariable &variable : state_variables)
-    for (int c = 0; c < (variable.is_tensor ? n_symmetric : 1); ++c, ++s)
-      std::fill_n(&state_data[s * n], n, variable.initial_value);
-  batch_states.resize(n_states);
-  internal_energy.assign(n, 0.);
-  hourglass_energy.assign(n, 0.);
-  plastic_work.assign(n, 0.);
+  cells->set_up(mesh, cell_id, connectivity);
   if (options.erodes())
     set_up_erosion();
   mesh = HexMesh();
@@ -205,9 +180,21 @@ void FemBody::accumulate_work(const double half_dt)
   constraints.accumulate_work(nodal_state, half_dt);
 }
 
-const double *FemBody::state_array(const std::string &wanted) const
+void FemBody::update_ghosts()
 {
-  return find_state(state_variables, state_data, connectivity.size(), wanted);
+  node_exchange.update(nodal_state.position.data());
+  node_exchange.update(nodal_state.velocity.data());
+}
+
+void FemBody::compute_forces(const double /*time*/, const double dt)
+{
+  std::fill(nodal_state.force.begin(), nodal_state.force.end(), Vec{});
+  cells->add_forces(nodal_state, dt);
+}
+
+StableStep FemBody::stable_step() const
+{
+  return cells->smallest_step;
 }
 
 void FemBody::add_energies(EnergyLedger &ledger) const
@@ -223,28 +210,28 @@ void FemBody::add_energies(EnergyLedger &ledger) const
     ledger.eroded.add(erosion->energy);
     ledger.plastic_work.add(erosion->plastic_work);
   }
-  for (std::size_t e = 0; e < connectivity.size(); ++e)
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      ledger.internal.add(internal_energy[e]);
-      ledger.hourglass.add(hourglass_energy[e]);
-      ledger.plastic_work.add(plastic_work[e]);
+      ledger.internal.add(cells->internal_energy(e));
+      ledger.hourglass.add(cells->hourglass_energy[e]);
+      ledger.plastic_work.add(cells->plastic_work(e));
     }
 }
 
 Measures FemBody::measure() const
 {
-  const double *const eps = state_array("effective plastic strain");
-  const double *const temperature = state_array("temperature");
+  const std::vector<double> eps = cells->cell_state("effective plastic strain"),
+                            temperature = cells->cell_state("temperature");
   ExactSum internal, hourglass;
   double top[2] = {0., 0.};
-  for (std::size_t e = 0; e < connectivity.size(); ++e)
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      internal.add(internal_energy[e]);
-      hourglass.add(hourglass_energy[e]);
-      top[0] = std::max(top[0], eps ? eps[e] : 0.);
-      top[1] = std::max(top[1], temperature ? temperature[e] : 0.);
+      internal.add(cells->internal_energy(e));
+      hourglass.add(cells->hourglass_energy[e]);
+      top[0] = std::max(top[0], eps.empty() ? 0. : eps[e]);
+      top[1] = std::max(top[1], temperature.empty() ? 0. : temperature[e]);
     }
   ExactSum::reduce({&internal, &hourglass}, communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
@@ -252,7 +239,10 @@ Measures FemBody::measure() const
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"hourglass energy", "J", hourglass.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
-  if (temperature)
+  bool heats = false;
+  for (const StateVariable &v : cells->states())
+    heats = heats || v.name == "temperature";
+  if (heats)
     measures.push_back({"temperature max", "K", top[1]});
   if (erosion)
     add_erosion_measures(measures);
@@ -268,13 +258,14 @@ OutputMesh FemBody::output_mesh() const
   for (std::size_t i = 0; i < n_nodes; ++i)
     for (int d = 0; d < 3; ++d)
       out.points.push_back(nodal_state.position[i][d]);
-  std::vector<std::size_t> cells;
-  for (std::size_t e = 0; e < connectivity.size(); ++e)
+  std::vector<std::size_t> owned;
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      cells.push_back(e);
-      out.connectivity.insert(out.connectivity.end(), connectivity[e].begin(),
-                              connectivity[e].end());
+      owned.push_back(e);
+      const auto &nodes = cells->connectivity[e];
+      out.connectivity.insert(out.connectivity.end(), nodes.begin(),
+                              nodes.end());
     }
   add_field(out.point_fields, "displacement", "m", n_nodes, 3,
             [&](const std::size_t i, const unsigned int c) {
@@ -284,11 +275,12 @@ OutputMesh FemBody::output_mesh() const
   add_field(out.point_fields, "velocity", "m/s", n_nodes, 3,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
-  add_material_fields(out.cell_fields, cells, connectivity.size(), stress_data,
-                      state_data, state_variables);
-  add_field(out.cell_fields, "body", "1", cells.size(), 1,
+  add_material_fields(out.cell_fields, owned, cells->size(),
+                      cells->cell_stress(), cells->cell_states(),
+                      cells->states());
+  add_field(out.cell_fields, "body", "1", owned.size(), 1,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", "1", cells.size(), 1,
+  add_field(out.cell_fields, "rank", "1", owned.size(), 1,
             [&](std::size_t, unsigned int) { return double(rank); });
   return out;
 }
@@ -323,16 +315,7 @@ void FemBody::visit_state(StateVisitor &visitor)
     visitor.visit("surface version", &surface_version, 1,
                   sizeof(surface_version));
   }
-  visit("gradient", gradient);
-  visit("hourglass modes", hourglass_modes);
-  visit("viscous pressure", viscous_pressure);
-  visit("stress", stress_data);
-  visit("state", state_data);
-  visit("internal energy", internal_energy);
-  visit("hourglass energy", hourglass_energy);
-  visit("plastic work", plastic_work);
+  cells->visit_state(visitor);
   visitor.visit("external work", &constraints.work(), 1, sizeof(ExactSum));
-  visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
-  visitor.visit("stable step item", &stable_step_item, 1, sizeof(GlobalIndex));
 }
 } // namespace sabot

@@ -1,6 +1,5 @@
 #include "sabot/bodies/body_report.h"
 #include "sabot/bodies/fem/fem_body.h"
-#include "sabot/bodies/fem/hourglass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,19 +18,17 @@ void FemBody::set_up_erosion()
 {
   erosion = std::make_unique<Erosion>();
   Erosion &er = *erosion;
-  const std::size_t n = connectivity.size();
-  er.nodes = connectivity;
-  er.id = cell_id;
+  const std::size_t n = cells->size();
+  er.nodes = cells->connectivity;
+  er.id = cells->cell_id;
   er.alive.assign(n, 1);
   er.cells_of_node.assign(nodal_state.size(), 0);
   er.free_node.assign(nodal_state.n_owned, 0);
   er.n_boundary_faces = mesh.boundary_faces.size();
-  if (options.erosion_step > 0.)
-    er.step.assign(n, std::numeric_limits<double>::max());
   for (std::size_t e = 0; e < n; ++e)
   {
     er.initial.push_back(e);
-    for (const std::uint32_t a : connectivity[e])
+    for (const std::uint32_t a : er.nodes[e])
       ++er.cells_of_node[a];
   }
 
@@ -49,7 +46,7 @@ void FemBody::set_up_erosion()
     {
       Face face{{}, std::int32_t(e), f};
       for (int a = 0; a < 4; ++a)
-        face.corner[a] = connectivity[e][face_corner[f][a]];
+        face.corner[a] = er.nodes[e][face_corner[f][a]];
       std::sort(face.corner.begin(), face.corner.end());
       faces.push_back(face);
     }
@@ -77,99 +74,60 @@ const std::vector<char> *FemBody::free_nodes() const
 
 std::vector<std::size_t> FemBody::cells_to_erode() const
 {
-  std::vector<std::size_t> cells = erosion->inverting;
-  const std::size_t n = connectivity.size();
-  const auto add_above = [&](const double *const values, const double limit)
+  std::vector<std::size_t> found = cells->inverting;
+  const auto add_above = [&](const char *const variable, const double limit)
   {
-    for (std::size_t e = 0; e < n; ++e)
+    if (limit >= FemOptions::never)
+      return;
+    const std::vector<double> values = cells->cell_state(variable);
+    for (std::size_t e = 0; e < values.size(); ++e)
       if (values[e] >= limit)
-        cells.push_back(e);
+        found.push_back(e);
   };
-  if (options.erosion_plastic_strain < FemOptions::never)
-    add_above(state_array("effective plastic strain"),
-              options.erosion_plastic_strain);
-  if (options.erosion_damage < FemOptions::never)
-    add_above(state_array("damage"), options.erosion_damage);
-  if (options.erosion_step > 0.)
-    for (std::size_t e = 0; e < n; ++e)
-      if (erosion->step[e] < options.erosion_step)
-        cells.push_back(e);
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
+  add_above("effective plastic strain", options.erosion_plastic_strain);
+  add_above("damage", options.erosion_damage);
+  for (std::size_t e = 0; e < cells->cell_step.size(); ++e)
+    if (cells->cell_step[e] < options.erosion_step)
+      found.push_back(e);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 void FemBody::update_topology(const unsigned int, const double)
 {
   if (!erosion)
     return;
-  const std::vector<std::size_t> cells = cells_to_erode();
-  erosion->inverting.clear();
+  const std::vector<std::size_t> found = cells_to_erode();
+  cells->inverting.clear();
   // All ranks must search their contacts anew.
-  int any = !cells.empty();
+  int any = !found.empty();
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, communicator);
   if (any == 0)
     return;
   ++surface_version;
-  erode(cells);
+  erode(found);
 }
 
-void FemBody::cell_forces(const std::size_t e, Vec force[8]) const
-{
-  // As scatter_forces() left them: the state has not changed since.
-  const std::size_t n = connectivity.size();
-  double J;
-  const Mat F_inverse = inverse(gradient[e], J);
-  const double *const s = &stress_data[e];
-  const double q = viscous_pressure[e];
-  const Mat sigma = {{vec(s[0] - q, s[3 * n], s[5 * n]),
-                      vec(s[3 * n], s[n] - q, s[4 * n]),
-                      vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
-  Mat P = (volume[e] * J) * (sigma * transpose(F_inverse));
-  Vec x[8], mode[4];
-  for (int a = 0; a < 8; ++a)
-    x[a] = nodal_state.position[connectivity[e][a]];
-  hourglass_sums(x, mode);
-  const HourglassModes &modes = hourglass_modes[e];
-  if (options.hourglass == FemOptions::Hourglass::viscous)
-    for (int m = 0; m < 4; ++m)
-    {
-      add_outer(P, -modes.mode[m], F_inverse * mode[m]);
-      mode[m] = modes.mode[m];
-    }
-  else
-  {
-    const double coefficient = hourglass_stiffness(e, J);
-    for (int m = 0; m < 4; ++m)
-    {
-      mode[m] = coefficient * (mode[m] - gradient[e] * modes.mode[m]);
-      add_outer(P, -mode[m], modes.mode[m]);
-    }
-  }
-  hourglass_spread(mode, force);
-  for (int a = 0; a < 8; ++a)
-    force[a] = -(P * geometry[e].mean_gradient[a] + force[a]);
-}
-
-void FemBody::erode(const std::vector<std::size_t> &cells)
+void FemBody::erode(const std::vector<std::size_t> &found)
 {
   Erosion &er = *erosion;
   std::vector<std::uint32_t> dead;
-  for (const std::size_t e : cells)
+  for (const std::size_t e : found)
   {
     // The half step that starts now must not feel the cell any more.
     Vec force[8];
-    cell_forces(e, force);
+    cells->cell_forces(nodal_state, e, force);
     for (int a = 0; a < 8; ++a)
-      nodal_state.force[connectivity[e][a]] -= force[a];
+      nodal_state.force[cells->connectivity[e][a]] -= force[a];
     dead.push_back(er.initial[e]);
     er.alive[er.initial[e]] = 0;
     if (!owned_cell[e])
       continue;
-    er.mass.add(material->density() * volume[e]);
-    er.energy.add(internal_energy[e]);
-    er.energy.add(hourglass_energy[e]);
-    er.plastic_work.add(plastic_work[e]);
+    er.mass.add(material->density() * cells->volume[e]);
+    er.energy.add(cells->internal_energy(e));
+    er.energy.add(cells->hourglass_energy[e]);
+    er.plastic_work.add(cells->plastic_work(e));
     er.n_cells.add(1.);
   }
   update_boundary(dead);
@@ -215,41 +173,17 @@ void FemBody::update_boundary(const std::vector<std::uint32_t> &dead)
 void FemBody::compact()
 {
   Erosion &er = *erosion;
-  const std::size_t n = connectivity.size();
   std::vector<std::size_t> kept;
-  for (std::size_t e = 0; e < n; ++e)
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (er.alive[er.initial[e]])
+    {
+      owned_cell[kept.size()] = owned_cell[e];
+      er.initial[kept.size()] = er.initial[e];
       kept.push_back(e);
-  const auto keep = [&](auto &array)
-  {
-    for (std::size_t e = 0; e < kept.size(); ++e)
-      array[e] = array[kept[e]];
-    array.resize(kept.size());
-  };
-  const auto keep_rows = [&](std::vector<double> &array)
-  {
-    const std::size_t n_rows = n > 0 ? array.size() / n : 0;
-    for (std::size_t r = 0; r < n_rows; ++r)
-      for (std::size_t e = 0; e < kept.size(); ++e)
-        array[r * kept.size() + e] = array[r * n + kept[e]];
-    array.resize(n_rows * kept.size());
-  };
-  keep(connectivity);
-  keep(geometry);
-  keep(hourglass_modes);
-  keep(gradient);
-  keep(viscous_pressure);
-  keep(volume);
-  keep(cell_id);
-  keep(owned_cell);
-  keep(internal_energy);
-  keep(hourglass_energy);
-  keep(plastic_work);
-  keep(er.initial);
-  if (!er.step.empty())
-    keep(er.step);
-  keep_rows(stress_data);
-  keep_rows(state_data);
+    }
+  owned_cell.resize(kept.size());
+  er.initial.resize(kept.size());
+  cells->keep(kept);
 }
 
 void FemBody::add_erosion_measures(Measures &measures) const
