@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -82,7 +83,19 @@ public:
 
   void make(dealii::Triangulation<3> &mesh)
   {
-    dealii::GridTools::invert_all_negative_measure_cells(points, cells);
+    // Right-handed: the lower four vertices change places with the upper.
+    for (dealii::CellData<3> &cell : cells)
+    {
+      dealii::Tensor<1, 3> edge[3];
+      for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int d = 0; d < 3; ++d)
+          edge[d] += (v >> d & 1 ? 1. : -1.) *
+                     dealii::Tensor<1, 3>(points[cell.vertices[v]]);
+      if (dealii::cross_product_3d(edge[0], edge[1]) * edge[2] < 0.)
+        std::swap_ranges(cell.vertices.begin(), cell.vertices.begin() + 4,
+                         cell.vertices.begin() + 4);
+    }
+    dealii::GridTools::consistently_order_cells(cells);
     mesh.create_triangulation(points, cells, dealii::SubCellData());
   }
 

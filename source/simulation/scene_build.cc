@@ -2,6 +2,7 @@
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/quantity.h"
 #include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/mesh_import.h"
@@ -190,17 +191,16 @@ void Scene::build_bodies()
       continue;
     }
 
-    FemOptions options = FemOptions::parse(prm);
-    options.initial_velocity = get_vector(prm, "Initial velocity");
+    const bool is_rigid = prm.get("Discretization") == "rigid";
     const double cell_size = get_quantity(prm, "Cell size");
     const auto carving =
         std::find_if(carvings.begin(), carvings.end(),
                      [&](const Carving &c) { return c.body == name; });
     HexMesh mesh;
     std::vector<std::string> faces = box_faces;
-    if (carving != carvings.end() && prm.get("Geometry") != "box")
+    if (carving != carvings.end() && (prm.get("Geometry") != "box" || is_rigid))
       throw InputError("Bodies/" + carving->zone + "/Carve from",
-                       "a zone can only be carved from a box");
+                       "a zone can only be carved from a FEM box");
     if (prm.get("Geometry") == "cylinder")
     {
       const unsigned int axis = prm.get("Axis")[0] - 'x';
@@ -261,8 +261,11 @@ void Scene::build_bodies()
       box.centre = centre;
       box.size = get_vector(prm, "Size");
       box.cell_size = cell_size;
-      box.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
-      box.growth_ratio = get_quantity(prm, "Growth ratio");
+      if (!is_rigid)
+      {
+        box.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
+        box.growth_ratio = get_quantity(prm, "Growth ratio");
+      }
       if (carving != carvings.end())
       {
         box.has_zone = true;
@@ -270,7 +273,8 @@ void Scene::build_bodies()
         box.zone_size = carving->size;
         box.zone_path = "Bodies/" + carving->zone;
       }
-      const auto refined = get_vector(prm, "Refined zone size");
+      const auto refined = is_rigid ? std::array<double, 3>{}
+                                    : get_vector(prm, "Refined zone size");
       if (refined[0] > 0. && refined[1] > 0. && refined[2] > 0.)
       {
         if (box.has_zone)
@@ -291,6 +295,17 @@ void Scene::build_bodies()
       throw InputError(path + "/Geometry",
                        "the mesh has a cell that is inside out or flat: " +
                            quality.text());
+    if (is_rigid)
+    {
+      RigidOptions options = RigidOptions::parse(prm);
+      options.initial_velocity = get_vector(prm, "Initial velocity");
+      is_free = is_free && !options.is_prescribed;
+      bodies.push_back(std::make_unique<RigidBody>(
+          name, bodies.size(), std::move(mesh), material->second, options));
+      continue;
+    }
+    FemOptions options = FemOptions::parse(prm);
+    options.initial_velocity = get_vector(prm, "Initial velocity");
     const auto ids = [&](const char *const entry)
     { return face_ids(path + "/" + entry, prm.get(entry), faces); };
     options.clamped_boundary_ids = ids("Clamped faces");

@@ -1,5 +1,6 @@
 #include "sabot/base/quantity.h"
 #include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/simulation/scene.h"
 
@@ -104,9 +105,10 @@ std::string face_names(const std::string &geometry)
 void declare_body(ParameterHandler &prm, const std::string &discretization,
                   const std::string &geometry)
 {
-  prm.declare_entry("Discretization", "FEM", Patterns::Selection("FEM|SPG"),
-                    "FEM: one-point hexahedra; SPG: smoothed-particle-Galerkin "
-                    "particles.");
+  prm.declare_entry("Discretization", "FEM",
+                    Patterns::Selection("FEM|SPG|rigid"),
+                    "FEM: hexahedra; SPG: smoothed-particle-Galerkin "
+                    "particles; rigid: hexahedra that do not deform.");
   prm.declare_entry(
       "Geometry", "box",
       Patterns::Selection(discretization == "SPG"
@@ -123,6 +125,14 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
                     QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
   declare_shape(prm, geometry);
+  if (discretization == "rigid")
+  {
+    prm.declare_entry("Cell size", "1 mm",
+                      QuantityPattern(Dimension::length, 1e-9, 1e2),
+                      "Edge of the cells, whose outer faces are the surface.");
+    RigidOptions::declare_parameters(prm);
+    return;
+  }
   prm.declare_entry("Symmetry faces", "", names,
                     std::string("Plane faces on which the model is cut: no "
                                 "velocity across them, no contact with them. "
@@ -296,9 +306,10 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
        {
          const bool manual = file == nullptr;
          declare_body(prm,
-                      manual ? name.substr(1, 3)
+                      manual ? name.substr(1, name.find(' ') - 1)
                              : read(path + "/Discretization", "FEM"),
-                      manual ? name.substr(5, name.size() - 6)
+                      manual ? name.substr(name.find(' ') + 1,
+                                           name.size() - name.find(' ') - 2)
                              : read(path + "/Geometry", "box"));
        });
   each("Couplings", {"<tie>", "<contact>", "<self-contact>"},

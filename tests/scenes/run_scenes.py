@@ -73,6 +73,44 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
+    def test_erosion_is_the_same_on_1_2_and_3_ranks(self):
+        scene = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("erosion%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                         "End time=6 us", "--set",
+                         "Bodies/plate/Cell size=2.5 mm", "--set",
+                         "Outputs/fields/Interval=3 us", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertGreater(r["bodies"]["plate"]["eroded_cells"], 10)
+            self.assertAlmostEqual(
+                r["bodies"]["plate"]["eroded_mass"],
+                r["bodies"]["plate"]["eroded_cells"] * 2700 * 12.7e-3 / 5 *
+                2.5e-3 ** 2, delta=0.05 * r["bodies"]["plate"]["eroded_mass"])
+            self.assertLess(r["energy_residual_max"], 0.005)
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+
+    def test_a_rigid_projectile_on_1_and_2_ranks(self):
+        scene = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        histories = []
+        for ranks in (1, 2):
+            out = folder("rigid%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                         "End time=3 us", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertLess(r["energy_residual_max"], 0.01)
+            self.assertAlmostEqual(r["bodies"]["projectile"]["mass"], 13.6e-3,
+                                   delta=1e-6)
+        self.assertEqual(histories[0], histories[1])
+
     def test_taylor_bar(self):
         out = folder("taylor")
         done = sabot("run", os.path.join(SOURCE, "prm/taylor/symmetric.prm"),
