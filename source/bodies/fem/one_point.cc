@@ -20,6 +20,15 @@ void copy_lane(const Packs &from, const std::size_t from_lane, Packs &to,
     target[i + to_lane] = source[i + from_lane];
 }
 
+/** Ask for all cache lines of a struct that is needed soon. */
+template <typename T>
+inline void prefetch(const T &data)
+{
+  const auto *const bytes = reinterpret_cast<const char *>(&data);
+  for (std::size_t i = 0; i < sizeof(T); i += 64)
+    __builtin_prefetch(bytes + i);
+}
+
 inline Pack dot(const Pack a[3], const Pack b[3])
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -158,6 +167,11 @@ void OnePoint::kinematics(const NodalState &nodes, const std::size_t pack,
                lambda = material->bulk_modulus() - 2. / 3. * mu;
   const Geometry &g = geometry[pack];
   Motion &old = motion[pack];
+  if (pack + 1 < geometry.size())
+  {
+    prefetch(geometry[pack + 1]);
+    prefetch(motion[pack + 1]);
+  }
   const std::size_t k = pack % packs_per_batch * n_lanes;
   Pending &out = pending[pack % packs_per_batch];
 

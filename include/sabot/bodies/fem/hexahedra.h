@@ -76,7 +76,8 @@ public:
   std::vector<std::size_t> inverting; // cells seen by avoid_inversion()
 
 protected:
-  static constexpr std::size_t batch_size = 64;
+  /** Points per batch; what one needs stays in the first-level cache. */
+  static constexpr std::size_t batch_size = 32;
   struct PointBatch
   {
     alignas(64) double strain[6][batch_size];
