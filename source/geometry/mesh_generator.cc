@@ -148,13 +148,31 @@ HexMesh make_graded_box(const BoxSpecification &box)
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
                       const std::array<double, 3> &centre,
-                      const double cell_size, const unsigned int n_cuts)
+                      const double cell_size, const unsigned int n_cuts,
+                      const CylinderGrading &grading)
 {
-  // A core of n x n cells, bulged so that its corners lie at 0.55 r and its
-  // edge middles a little further out than a square's, and m rings.
+  // A core of n x n cells, bulged so that its corners lie at the core radius
+  // and its edge middles a little further out than a square's, and rings.
+  const double core =
+      grading.core_radius > 0. ? grading.core_radius / radius : 0.55;
   const unsigned int n =
-      2 * std::max(1u, n_intervals(0.4 * radius * std::sqrt(2.), cell_size));
-  const unsigned int m = n_intervals(0.5 * radius, cell_size);
+      2 * std::max(1u, n_intervals(0.4 / 0.55 * core * radius * std::sqrt(2.),
+                                   cell_size));
+  // Heights of the rings over the thickness of the shell.
+  std::vector<double> heights;
+  const double shell = radius * (1. - core * 0.5 / 0.55);
+  if (grading.growth_ratio > 1.)
+    for (const double size :
+         growing_sizes(shell, cell_size, grading.coarsest_cell_size,
+                       grading.growth_ratio))
+      heights.push_back((heights.empty() ? 0. : heights.back()) + size / shell);
+  else
+  {
+    const unsigned int n_rings = n_intervals(shell, cell_size);
+    for (unsigned int ring = 1; ring <= n_rings; ++ring)
+      heights.push_back(double(ring) / n_rings);
+  }
+  heights.back() = 1.;
   const double pi = 3.14159265358979323846;
   std::vector<dealii::Point<2>> points;
   std::vector<dealii::CellData<2>> cells;
@@ -162,7 +180,7 @@ HexMesh make_cylinder(const double radius, const double length,
   const auto core_point = [&](const double s, const double t)
   {
     // [-1,1]^2 to a square with bulged edges.
-    const double corner = 0.55 / std::sqrt(2.);
+    const double corner = core / std::sqrt(2.);
     const double x = corner * s * (1. + 0.12 * (1. - t * t)),
                  y = corner * t * (1. + 0.12 * (1. - s * s));
     return dealii::Point<2>(x, y);
@@ -192,9 +210,8 @@ HexMesh make_cylinder(const double radius, const double length,
     inner.push_back(core_index(0, n - j));
   const unsigned int n_rim = inner.size();
   std::vector<unsigned int> last = inner;
-  for (unsigned int ring = 1; ring <= m; ++ring)
+  for (const double f : heights)
   {
-    const double f = double(ring) / m;
     std::vector<unsigned int> next(n_rim);
     for (unsigned int a = 0; a < n_rim; ++a)
     {

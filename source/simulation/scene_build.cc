@@ -211,9 +211,16 @@ void Scene::build_bodies()
       faces = {"lower", "upper", "side"};
       for (unsigned int cut = 0; cut < n_cuts; ++cut)
         faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
-      mesh = make_cylinder(get_quantity(prm, "Radius"),
-                           get_quantity(prm, "Length"), axis, centre, cell_size,
-                           n_cuts);
+      CylinderGrading grading;
+      grading.core_radius = get_quantity(prm, "Core radius");
+      grading.growth_ratio = get_quantity(prm, "Growth ratio");
+      grading.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
+      const double radius = get_quantity(prm, "Radius");
+      if (grading.core_radius > 0.9 * radius)
+        throw InputError(path + "/Core radius",
+                         "leaves no room for rings; at most 0.9 of the radius");
+      mesh = make_cylinder(radius, get_quantity(prm, "Length"), axis, centre,
+                           cell_size, n_cuts, grading);
     }
     else if (prm.get("Geometry") == "sphere")
     {

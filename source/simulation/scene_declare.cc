@@ -84,6 +84,15 @@ void declare_shape(ParameterHandler &prm, const std::string &geometry)
   prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
   prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z"),
                     "Direction of the cylinder's axis.");
+  prm.declare_entry("Core radius", "0 m",
+                    QuantityPattern(Dimension::length, 0., 1e3),
+                    "Radius of the middle part that has cells of the cell "
+                    "size; 0: 0.55 of the radius.");
+  prm.declare_entry("Growth ratio", "1",
+                    QuantityPattern(Dimension::none, 1., 3.),
+                    "Thickness of one ring of cells over the last, outwards.");
+  prm.declare_entry("Coarsest cell size", "1 km", length,
+                    "Rings grow up to this thickness.");
   prm.declare_entry("Sector", "full", Patterns::Selection("full|half|quarter"),
                     "Part of the cylinder that is modelled: half keeps the "
                     "positive side of the axis that follows the cylinder's "

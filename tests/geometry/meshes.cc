@@ -53,6 +53,26 @@ TEST(RoundBodies, a_sphere_has_its_volume_and_good_cells)
   }
 }
 
+TEST(RoundBodies, a_graded_cylinder_is_fine_in_the_middle_only)
+{
+  CylinderGrading grading;
+  grading.core_radius = 6e-3;
+  grading.growth_ratio = 1.25;
+  grading.coarsest_cell_size = 6e-3;
+  const double exact = M_PI * 2500e-6 * 10e-3;
+  for (const unsigned int n_cuts : {0u, 2u})
+  {
+    const HexMesh mesh =
+        make_cylinder(50e-3, 10e-3, 2, {{0., 0., 0.}}, 1e-3, n_cuts, grading);
+    EXPECT_NEAR(volume(mesh), n_cuts > 0 ? exact / 4. : exact, 1e-12 * exact);
+    EXPECT_LT(mesh.cells.size(), n_cuts > 0 ? 4000u : 16000u);
+    EXPECT_GT(measure_quality(mesh).scaled_jacobian, 0.5)
+        << measure_quality(mesh).text();
+    EXPECT_LT(measure_quality(mesh).aspect_ratio, 8.)
+        << measure_quality(mesh).text();
+  }
+}
+
 TEST(RoundBodies, noses_have_their_volume_and_length)
 {
   ProjectileSpecification p;
