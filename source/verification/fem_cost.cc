@@ -76,6 +76,8 @@ std::vector<Check> costs()
                cost(viscous, johnson_cook, 1.)),
       measured("one point, Johnson-Cook, plastic",
                cost(viscous, johnson_cook, 1e4)),
+      measured("one point, elastic, 1000 cells (in cache)",
+               cost(viscous, law, 1e4, 10)),
       measured("B-bar, elastic", cost(b_bar, law, 1e4)),
       measured("B-bar, Johnson-Cook, plastic", cost(b_bar, johnson_cook, 1e4))};
 }
