@@ -11,7 +11,7 @@ import tempfile
 
 FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
         "bodies/rigid", "bodies/spg", "couplings", "integrator", "output", "simulation",
-        "verification", ""}
+        "study", "verification", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
 # Folder: folders or single headers that it may include, besides its own.
 ALLOWED = {
@@ -27,6 +27,8 @@ ALLOWED = {
     "integrator": {"base", "kernels", BODY, COUPLING},
     "output": {"base", BODY, COUPLING},
     "simulation": FREE,
+    "study": {"base", "output", "simulation"},
+    "charts": set(),
     "verification": FREE,
     "": FREE,
 }

@@ -3,8 +3,8 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build git libdeal.ii-dev libvtk9-dev libeigen3-dev
-  libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev openmpi-bin
-  hdf5-tools ccache python3)
+  libcli11-dev libssl-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev openmpi-bin
+  hdf5-tools ccache python3 xvfb xauth)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -1,6 +1,11 @@
 #include "sabot/base/parameter_file.h"
+#include "sabot/output/file_tools.h"
+#include "sabot/simulation/plan.h"
+#include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
+#include "sabot/study/study.h"
+#include "sabot/study/study_file.h"
 #include "sabot/verification/problem.h"
 
 #include <deal.II/base/mpi.h>
@@ -19,7 +24,8 @@ struct Arguments
   std::vector<std::string> overrides;
   std::vector<std::string> problems;
   std::string json_file;
-  bool quiet = false, list = false;
+  bool quiet = false, list = false, is_about_studies = false;
+  StudyArguments study;
 };
 
 /** "file:line: message" of bad input. */
@@ -64,11 +70,59 @@ ExitCode run_scene(const Arguments &arguments, const bool check_only)
   return ExitCode::done;
 }
 
+ExitCode plan_scene(const Arguments &arguments)
+{
+  const ParameterFile file(arguments.scene, arguments.overrides);
+  try
+  {
+    Scene scene(file, MPI_COMM_WORLD);
+    const PhysicsPlan physics = plan_physics(scene);
+    constexpr double calibration_seconds = 1.;
+    const CostPlan cost =
+        plan_cost(scene, physics, calibration_seconds, MPI_COMM_WORLD);
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      for (const std::string &warning : scene.warnings)
+        std::cout << "warning: " << warning << "\n";
+      std::cout << to_text(physics, cost) << std::flush;
+      if (!arguments.json_file.empty())
+        write_text(arguments.json_file, to_json(physics, cost).dump(2) + "\n");
+    }
+  }
+  catch (const InputError &error)
+  {
+    throw InputError("", located(error, &file));
+  }
+  return ExitCode::done;
+}
+
+ExitCode resume_run(const Arguments &arguments)
+{
+  const ResumePoint point =
+      find_resume_point(arguments.folder, arguments.overrides, MPI_COMM_WORLD);
+  const ParameterFile file(point.scene, arguments.overrides);
+  try
+  {
+    Scene scene(file, MPI_COMM_WORLD);
+    scene.warnings.insert(scene.warnings.begin(), point.warnings.begin(),
+                          point.warnings.end());
+    return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
+        .execute(point.checkpoint);
+  }
+  catch (const InputError &error)
+  {
+    throw InputError("", located(error, &file));
+  }
+}
+
 ExitCode print_parameters(const Arguments &arguments)
 {
   using dealii::ParameterHandler;
   ParameterHandler prm;
-  Scene::declare(prm, nullptr);
+  if (arguments.is_about_studies)
+    StudyFile::declare(prm, {"<name>"}, {"<name>"});
+  else
+    Scene::declare(prm, nullptr);
   const auto style = arguments.format == "prm"    ? ParameterHandler::Text
                      : arguments.format == "json" ? ParameterHandler::JSON
                      : arguments.format == "xml"
@@ -98,6 +152,30 @@ ExitCode run_verification(const Arguments &arguments)
              ? ExitCode::done
              : ExitCode::physics_failed;
 }
+
+/** Run a command; what it throws becomes a message and an exit code. */
+template <typename Action>
+int report_errors(const bool speaks, const Action &action)
+{
+  ExitCode code = ExitCode::done;
+  try
+  {
+    code = action();
+  }
+  catch (const InputError &error)
+  {
+    if (speaks)
+      std::cerr << "error: " << error.what() << std::endl;
+    code = ExitCode::bad_input;
+  }
+  catch (const IOError &error)
+  {
+    if (speaks)
+      std::cerr << "error: " << error.what() << std::endl;
+    code = ExitCode::io_failed;
+  }
+  return static_cast<int>(code);
+}
 } // namespace
 
 int main(int argc, char **argv)
@@ -120,14 +198,46 @@ int main(int argc, char **argv)
   run->add_option("-o,--output", arguments.folder, "Folder for the results")
       ->capture_default_str();
   run->add_flag("--quiet", arguments.quiet, "Write to log.txt only");
+  CLI::App *const resume = app.add_subcommand(
+      "resume", "Continue an interrupted run from its newest checkpoint");
+  resume->add_option("folder", arguments.folder, "Folder with the results")
+      ->required();
+  resume
+      ->add_option("--set", arguments.overrides,
+                   "Replace an entry on which the state does not depend: "
+                   "\"End time=value\"")
+      ->allow_extra_args(false);
+  resume->add_flag("--quiet", arguments.quiet, "Write to log.txt only");
   CLI::App *const check =
       app.add_subcommand("check", "Check a scene without running it");
   add_scene(check);
+  CLI::App *const plan = app.add_subcommand(
+      "plan", "Say what a scene needs and costs before running it");
+  add_scene(plan);
+  plan->add_option("--json", arguments.json_file, "Also write it to this file");
+  CLI::App *const study = app.add_subcommand(
+      "study", "Vary the parameters of a scene; tables, charts and a report");
+  study->add_option("study", arguments.study.file, "Study file (.prm)")
+      ->required();
+  study
+      ->add_option("--set", arguments.study.overrides,
+                   "Replace an entry of the study: \"Section/Name=value\"")
+      ->allow_extra_args(false);
+  study->add_option("-o,--output", arguments.study.folder, "Folder")
+      ->default_val("results-study");
+  study->add_option("--processes", arguments.study.n_processes,
+                    "Runs at the same time; 0: as the study file says");
+  study->add_flag("--retry", arguments.study.retry, "Run again what failed");
+  study->add_flag("--list", arguments.study.list,
+                  "Check the study and list its runs without running them");
+  study->add_flag("--quiet", arguments.study.quiet, "Say nothing");
   CLI::App *const parameters =
       app.add_subcommand("parameters", "Print the manual of all entries");
   parameters->add_option("--format", arguments.format, "")
       ->check(CLI::IsMember({"markdown", "prm", "json", "xml"}))
       ->capture_default_str();
+  parameters->add_flag("--study", arguments.is_about_studies,
+                       "Of study files instead of scenes");
   CLI::App *const verification = app.add_subcommand(
       "verify", "Compare verification problems with exact answers");
   verification->add_option("name", arguments.problems,
@@ -144,27 +254,20 @@ int main(int argc, char **argv)
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
 
+  // A study starts processes that use MPI and must not be one itself.
+  if (*study)
+    return report_errors(true, [&]() { return run_study(arguments.study); });
+
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool speaks =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  ExitCode code = ExitCode::done;
-  try
-  {
-    code = *parameters     ? print_parameters(arguments)
-           : *verification ? run_verification(arguments)
-                           : run_scene(arguments, bool(*check));
-  }
-  catch (const InputError &error)
-  {
-    if (speaks)
-      std::cerr << "error: " << error.what() << std::endl;
-    code = ExitCode::bad_input;
-  }
-  catch (const IOError &error)
-  {
-    if (speaks)
-      std::cerr << "error: " << error.what() << std::endl;
-    code = ExitCode::io_failed;
-  }
-  return static_cast<int>(code);
+  return report_errors(speaks,
+                       [&]()
+                       {
+                         return *parameters     ? print_parameters(arguments)
+                                : *verification ? run_verification(arguments)
+                                : *resume       ? resume_run(arguments)
+                                : *plan         ? plan_scene(arguments)
+                                        : run_scene(arguments, bool(*check));
+                       });
 }

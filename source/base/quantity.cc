@@ -47,6 +47,10 @@ const Unit units[] = {
     {Dimension::energy, "kJ", 1e3},
     {Dimension::angle, "rad", 1.},
     {Dimension::angle, "deg", 0.017453292519943295},
+    {Dimension::inverse_temperature, "1/K", 1.},
+    {Dimension::inverse_pressure, "1/Pa", 1.},
+    {Dimension::inverse_pressure, "1/GPa", 1e-9},
+    {Dimension::conductivity, "W/m/K", 1.},
 };
 
 const char *dimension_name(const Dimension dimension)
@@ -77,6 +81,12 @@ const char *dimension_name(const Dimension dimension)
     return "an energy";
   case Dimension::angle:
     return "an angle";
+  case Dimension::inverse_temperature:
+    return "an inverse temperature";
+  case Dimension::inverse_pressure:
+    return "an inverse stress";
+  case Dimension::conductivity:
+    return "a thermal conductivity";
   }
   return "";
 }

@@ -4,20 +4,19 @@
 
 namespace sabot
 {
-void Elastic::update(const MaterialBatch &batch) const
+void Elastic::update_deviator(const MaterialBatch &batch, Scratch &) const
 {
-  trial_stress(batch);
+  trial_deviator(batch);
   std::fill_n(batch.return_factor, batch.n, 1.);
   std::fill_n(batch.plastic_work, batch.n, 0.);
 }
 
 namespace
 {
-const RegisterMaterial registered(
-    {"Elastic", "hypoelastic, Jaumann rate, pressure -K ln J.",
-     [](dealii::ParameterHandler &) {},
-     [](dealii::ParameterHandler &prm, const std::string &path) {
-       return std::make_unique<Elastic>(ElasticConstants::parse(prm, path));
-     }});
+const RegisterMaterial
+    registered({"Elastic", "hypoelastic, objective rate of the body.", nullptr,
+                [](dealii::ParameterHandler &, const std::string &,
+                   const ElasticConstants &elastic, const ElasticBase::Eos &eos)
+                { return std::make_unique<Elastic>(elastic, eos); }});
 } // namespace
 } // namespace sabot

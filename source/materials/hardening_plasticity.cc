@@ -6,44 +6,78 @@
 
 namespace sabot
 {
-std::vector<StateVariable> HardeningPlasticity::state_variables() const
+HardeningPlasticity::HardeningPlasticity(const ElasticConstants &elastic,
+                                         const HardeningParameters &p,
+                                         const Eos &eos)
+    : ElasticBase(elastic, eos), isotropic_fraction(p.isotropic_fraction)
+{
+  if (p.table_strain.empty())
+    pieces = {{0., p.yield_stress, p.hardening_modulus}};
+  for (std::size_t i = 0; i < p.table_strain.size(); ++i)
+    pieces.push_back({p.table_strain[i], p.table_stress[i],
+                      i + 1 == p.table_strain.size()
+                          ? 0.
+                          : (p.table_stress[i + 1] - p.table_stress[i]) /
+                                (p.table_strain[i + 1] - p.table_strain[i])});
+}
+
+std::vector<StateVariable> HardeningPlasticity::law_variables() const
 {
   std::vector<StateVariable> variables = {
       {"effective plastic strain", "1", 0., false}};
-  if (parameters.isotropic_fraction < 1.)
+  if (isotropic_fraction < 1.)
     variables.push_back({"back stress", "Pa", 0., true});
   return variables;
 }
 
-void HardeningPlasticity::update(const MaterialBatch &b) const
+void HardeningPlasticity::update_deviator(const MaterialBatch &b,
+                                          Scratch &) const
 {
-  trial_stress(b);
-  const bool kinematic = parameters.isotropic_fraction < 1.;
-  const double H = parameters.hardening_modulus,
-               isotropic = parameters.isotropic_fraction * H,
-               moving = H - isotropic;
+  trial_deviator(b);
+  const bool kinematic = isotropic_fraction < 1.;
+  const double initial = pieces[0].stress;
   double *const eps = b.state(0);
   for (std::size_t k = 0; k < b.n; ++k)
   {
-    const double mean = (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
     double xi[6]; // deviator relative to the back stress
     for (int c = 0; c < 6; ++c)
-      xi[c] = b.stress[c][k] - (c < 3 ? mean : 0.) -
-              (kinematic ? b.state(1 + c)[k] : 0.);
+      xi[c] = b.stress[c][k] - (kinematic ? b.state(1 + c)[k] : 0.);
     const double q =
         std::sqrt(1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
                          2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
                   b.extra_square[k]);
-    const double excess = q - parameters.yield_stress - isotropic * eps[k];
-    const double increment = excess > 0. ? excess / (3. * G + H) : 0.;
+    std::size_t i = 0;
+    while (i + 1 < pieces.size() && eps[k] >= pieces[i + 1].strain)
+      ++i;
+    const double old =
+        pieces[i].stress + pieces[i].slope * (eps[k] - pieces[i].strain);
+    // q = 3 G d + Y(eps + d) - (1 - beta)(Y(eps) - Y(0)).
+    const double target = q + (1. - isotropic_fraction) * (old - initial);
+    double increment = 0., hardening = 0.;
+    if (target > old)
+    {
+      // The first piece whose end needs more than the target holds the root.
+      while (i + 1 < pieces.size() &&
+             3. * G * (pieces[i + 1].strain - eps[k]) + pieces[i + 1].stress <
+                 target)
+        ++i;
+      const Piece &piece = pieces[i];
+      increment =
+          (target - piece.stress - piece.slope * (eps[k] - piece.strain)) /
+          (3. * G + piece.slope);
+      hardening = piece.stress +
+                  piece.slope * (eps[k] + increment - piece.strain) - old;
+    }
     const double scale = increment > 0. ? 1.5 * increment / q : 0.;
+    const double moving =
+        increment > 0. ? (1. - isotropic_fraction) * hardening / q : 0.;
     // Plastic work with the stress at the end of the step.
     double work = 0.;
     for (int c = 0; c < 6; ++c)
     {
       b.stress[c][k] -= 2. * G * scale * xi[c];
       if (kinematic)
-        b.state(1 + c)[k] += 2. / 3. * moving * scale * xi[c];
+        b.state(1 + c)[k] += moving * xi[c];
       work += (c < 3 ? 1. : 2.) * b.stress[c][k] * scale * xi[c];
     }
     eps[k] += increment;
@@ -54,9 +88,55 @@ void HardeningPlasticity::update(const MaterialBatch &b) const
 
 namespace
 {
+HardeningParameters parse(dealii::ParameterHandler &prm,
+                          const std::string &path)
+{
+  HardeningParameters p;
+  p.yield_stress = get_quantity(prm, "Yield stress");
+  p.hardening_modulus = get_quantity(prm, "Hardening modulus");
+  p.isotropic_fraction = get_quantity(prm, "Isotropic fraction");
+  p.table_strain = get_quantities(prm, "Table of strains");
+  p.table_stress = get_quantities(prm, "Table of stresses");
+  const std::vector<double> &e = p.table_strain, &s = p.table_stress;
+  const auto fail = [&](const std::string &entry, const std::string &message)
+  { throw InputError(path + "/" + entry, message); };
+  if (e.empty() && s.empty())
+  {
+    if (p.yield_stress <= 0.)
+      fail("Yield stress", "must be set to a positive stress, for example "
+                           "324 MPa");
+    return p;
+  }
+  if (p.yield_stress != 0. || p.hardening_modulus != 0.)
+    fail("Yield stress", "yield stress and hardening modulus are part of the "
+                         "table; set either the table or these two");
+  if (e.size() != s.size())
+    fail("Table of stresses", "has " + std::to_string(s.size()) +
+                                  " values, the strains have " +
+                                  std::to_string(e.size()));
+  if (e[0] != 0.)
+    fail("Table of strains", "must start with 0, the initial yield");
+  if (s[0] <= 0.)
+    fail("Table of stresses", "must start with a positive stress");
+  for (std::size_t i = 1; i < e.size(); ++i)
+  {
+    if (e[i] <= e[i - 1])
+      fail("Table of strains", "must increase; value " + std::to_string(i + 1) +
+                                   " is " + std::to_string(e[i]) + " after " +
+                                   std::to_string(e[i - 1]));
+    if (s[i] < s[i - 1])
+      fail("Table of stresses", "must not decrease; value " +
+                                    std::to_string(i + 1) + " is " +
+                                    std::to_string(s[i]) + " Pa after " +
+                                    std::to_string(s[i - 1]) + " Pa");
+  }
+  return p;
+}
+
 const RegisterMaterial registered(
     {"Hardening plasticity",
-     "J2 plasticity with linear isotropic, kinematic or mixed hardening.",
+     "J2 plasticity with linear or tabulated isotropic, kinematic or mixed "
+     "hardening.",
      [](dealii::ParameterHandler &prm)
      {
        prm.declare_entry("Yield stress", "0",
@@ -67,22 +147,26 @@ const RegisterMaterial registered(
                          "Slope of stress against plastic strain.");
        prm.declare_entry("Isotropic fraction", "1",
                          QuantityPattern(Dimension::none, 0., 1.),
-                         "1: isotropic hardening, 0: kinematic.");
+                         "1: isotropic hardening, 0: kinematic. Stress in "
+                         "monotonic loading does not depend on it.");
+       prm.declare_entry(
+           "Table of strains", "",
+           QuantityPattern(Dimension::none, 0, 1000, 0., 1e3),
+           "Effective plastic strains of a piecewise linear hardening curve, "
+           "from 0 on, in place of yield stress and modulus.");
+       prm.declare_entry(
+           "Table of stresses", "",
+           QuantityPattern(Dimension::pressure, 0, 1000, 0., 1e12),
+           "Yield stresses at these strains, not decreasing; "
+           "constant beyond the last.");
      },
-     [](dealii::ParameterHandler &prm, const std::string &path)
+     [](dealii::ParameterHandler &prm, const std::string &path,
+        const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
-       const ElasticConstants elastic = ElasticConstants::parse(prm, path);
        prm.enter_subsection("Hardening plasticity");
-       HardeningParameters p;
-       p.yield_stress = get_quantity(prm, "Yield stress");
-       p.hardening_modulus = get_quantity(prm, "Hardening modulus");
-       p.isotropic_fraction = get_quantity(prm, "Isotropic fraction");
+       const HardeningParameters p = parse(prm, path + "/Hardening plasticity");
        prm.leave_subsection();
-       if (p.yield_stress <= 0.)
-         throw InputError(path + "/Hardening plasticity/Yield stress",
-                          "must be set to a positive stress, for example "
-                          "324 MPa");
-       return std::make_unique<HardeningPlasticity>(elastic, p);
+       return std::make_unique<HardeningPlasticity>(elastic, p, eos);
      }});
 } // namespace
 } // namespace sabot

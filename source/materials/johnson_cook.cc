@@ -1,162 +1,161 @@
+#include "sabot/materials/johnson_cook.h"
+
 #include "sabot/base/error.h"
 #include "sabot/base/quantity.h"
-#include "sabot/materials/laws.h"
-
-#include <algorithm>
-#include <cmath>
+#include "sabot/kernels/stress_update.h"
 
 namespace sabot
 {
-std::vector<StateVariable> JohnsonCook::state_variables() const
+JohnsonCook::JohnsonCook(const ElasticConstants &elastic,
+                         const JohnsonCookParameters &p, const Eos &eos)
+    : RateDependentPlasticity(elastic, JohnsonCookFlow{p},
+                              {p.initial_temperature, p.specific_heat,
+                               p.taylor_quinney, p.conductivity,
+                               p.thermal_expansion},
+                              eos)
 {
-  return {{"effective plastic strain", "1", 0., false},
-          {"temperature", "K", parameters.initial_temperature, false}};
 }
 
-double JohnsonCook::thermal_factor(const double temperature) const
+std::vector<StateVariable> JohnsonCook::law_variables() const
 {
-  const double above = temperature - parameters.room_temperature;
-  if (above <= 0.)
-    return 1.;
-  const double T =
-      above / (parameters.melt_temperature - parameters.room_temperature);
-  return T >= 1. ? 0. : 1. - std::pow(T, parameters.m);
+  auto variables = RateDependentPlasticity::law_variables();
+  if (flow.p.has_damage)
+    variables.push_back({"damage", "1", 0., false});
+  return variables;
 }
 
-double JohnsonCook::flow_stress(const double eps, const double rate,
-                                const double thermal, const double dt,
-                                double &slope) const
+double JohnsonCook::fracture_strain(const double triaxiality, const double rate,
+                                    const double temperature) const
 {
-  const JohnsonCookParameters &p = parameters;
-  const double safe = std::max(eps, 1e-14);
-  const double hardening = p.B * std::pow(safe, p.n);
-  const double relative = rate / p.reference_strain_rate;
-  const double fast = relative > 1. ? 1. + p.C * std::log(relative) : 1.;
-  const double fast_slope = relative > 1. ? p.C / (rate * dt) : 0.;
-  slope = thermal *
-          (p.n * hardening / safe * fast + (p.A + hardening) * fast_slope);
-  return thermal * (p.A + hardening) * fast;
+  const double *const D = flow.p.D;
+  const double relative = std::max(1., rate / flow.p.reference_strain_rate);
+  const double strain =
+      (D[0] + D[1] * std::exp(D[2] * std::clamp(triaxiality, -10., 1.5))) *
+      (1. + D[3] * std::log(relative)) *
+      (1. + D[4] * flow.homologous(temperature));
+  return std::max(strain, flow.p.smallest_fracture_strain);
 }
 
-double JohnsonCook::plastic_increment(const double q, const double eps,
-                                      const double thermal,
-                                      const double dt) const
+void JohnsonCook::update_deviator(const MaterialBatch &b,
+                                  Scratch &old_strain) const
 {
-  // Root of q - 3 G d - sigma_y(eps + d, d/dt), decreasing in d: Newton inside
-  // a bracket that always holds the root.
-  double low = 0., high = q / (3. * G), slope;
-  double d =
-      std::min(high, (q - flow_stress(eps, 0., thermal, dt, slope)) / (3. * G));
-  for (int iteration = 0; iteration < 60; ++iteration)
-  {
-    const double f =
-        q - 3. * G * d - flow_stress(eps + d, d / dt, thermal, dt, slope);
-    (f > 0. ? low : high) = d;
-    if (std::abs(f) <= 1e-12 * q || high - low <= 1e-16 * high)
-      break;
-    const double next = d + f / (3. * G + slope);
-    d = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  return d;
+  if (flow.p.has_damage)
+    std::copy_n(b.state(0), b.n, old_strain);
+  RateDependentPlasticity::update_deviator(b, old_strain);
 }
 
-void JohnsonCook::update(const MaterialBatch &b) const
+void JohnsonCook::after_pressure(const MaterialBatch &b,
+                                 const Scratch &old_strain) const
 {
-  trial_stress(b);
-  double *const eps = b.state(0), *const temperature = b.state(1);
-  const double heating =
-      parameters.taylor_quinney / (density() * parameters.specific_heat);
+  RateDependentPlasticity::after_pressure(b, old_strain);
+  if (!flow.p.has_damage)
+    return;
+  const double *const eps = b.state(0), *const temperature = b.state(1);
+  double *const damage = b.state(2);
   for (std::size_t k = 0; k < b.n; ++k)
   {
-    const double mean = (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
-    const double x = b.stress[0][k] - mean, y = b.stress[1][k] - mean,
-                 z = b.stress[2][k] - mean, xy = b.stress[3][k],
-                 yz = b.stress[4][k], xz = b.stress[5][k];
-    const double q = std::sqrt(
-        1.5 * (x * x + y * y + z * z + 2. * (xy * xy + yz * yz + xz * xz)) +
-        b.extra_square[k]);
-    b.return_factor[k] = 1.;
-    b.plastic_work[k] = 0.;
-    const double thermal = thermal_factor(temperature[k]);
-    // No point below the bare initial yield stress needs the power law.
-    if (q <= thermal * parameters.A)
+    const double d = eps[k] - old_strain[k];
+    if (d <= 0.)
       continue;
-    double slope;
-    if (q <= flow_stress(eps[k], 0., thermal, b.dt, slope))
-      continue;
-    const double d = plastic_increment(q, eps[k], thermal, b.dt);
-    const double theta = std::max(0., 1. - 3. * G * d / q);
-    b.stress[0][k] = theta * x + mean;
-    b.stress[1][k] = theta * y + mean;
-    b.stress[2][k] = theta * z + mean;
-    b.stress[3][k] = theta * xy;
-    b.stress[4][k] = theta * yz;
-    b.stress[5][k] = theta * xz;
-    const double work = theta * q * d;
-    eps[k] += d;
-    temperature[k] += heating * work;
-    b.return_factor[k] = theta;
-    b.plastic_work[k] = work;
+    double s[6];
+    for (int c = 0; c < 6; ++c)
+      s[c] = b.stress[c][k];
+    // Melted points have no von Mises stress; the clamp takes the ratio.
+    const double mean = (s[0] + s[1] + s[2]) / 3.,
+                 smallest = 1e-12 * shear_modulus();
+    const double triaxiality = mean / std::max(von_mises(s), smallest);
+    damage[k] =
+        std::min(1., damage[k] + d / fracture_strain(triaxiality, d / b.dt,
+                                                     temperature[k]));
   }
 }
 
 namespace
 {
+const char *const damage_names[5] = {"D1", "D2", "D3", "D4", "D5"};
+
+void declare(dealii::ParameterHandler &prm)
+{
+  const auto entry = [&](const std::string &name, const std::string &value,
+                         const Dimension d, const double low, const double high,
+                         const std::string &text)
+  { prm.declare_entry(name, value, QuantityPattern(d, low, high), text); };
+  entry("Initial yield stress", "0", Dimension::pressure, 0., 1e12, "A.");
+  entry("Hardening modulus", "0", Dimension::pressure, 0., 1e12, "B.");
+  entry("Hardening exponent", "1", Dimension::none, 0.001, 5., "n.");
+  entry("Strain rate coefficient", "0", Dimension::none, 0., 1., "C.");
+  entry("Thermal softening exponent", "1", Dimension::none, 0.01, 10., "m.");
+  entry("Reference strain rate", "1 1/s", Dimension::strain_rate, 1e-9, 1e9,
+        "Rate below which there is no rate effect.");
+  entry("Room temperature", "294 K", Dimension::temperature, 0., 1e4,
+        "Temperature below which there is no softening.");
+  entry("Melt temperature", "1000 K", Dimension::temperature, 1., 1e5,
+        "Temperature at which the strength is gone.");
+  ThermalParameters::declare_parameters(prm, "294 K");
+  prm.declare_entry("Damage", "false", dealii::Patterns::Bool(),
+                    "Whether to follow the fracture model of Johnson and Cook "
+                    "1985 as the state \"damage\", 1 at fracture. It does not "
+                    "change the stress.");
+  for (const char *const name : damage_names)
+    entry(name, "0", Dimension::none, -1e3, 1e3,
+          "Fracture strain (D1 + D2 exp(D3 sigma*))(1 + D4 ln rate*)"
+          "(1 + D5 T*), sigma* = mean over von Mises stress.");
+  entry("Smallest fracture strain", "0.01", Dimension::none, 1e-6, 1.,
+        "Lower bound of the fracture strain, which some sets make negative "
+        "at high triaxiality.");
+}
+
+JohnsonCookParameters parse(dealii::ParameterHandler &prm,
+                            const std::string &path, const EquationOfState &eos)
+{
+  JohnsonCookParameters p;
+  p.A = get_quantity(prm, "Initial yield stress");
+  p.B = get_quantity(prm, "Hardening modulus");
+  p.n = get_quantity(prm, "Hardening exponent");
+  p.C = get_quantity(prm, "Strain rate coefficient");
+  p.m = get_quantity(prm, "Thermal softening exponent");
+  p.reference_strain_rate = get_quantity(prm, "Reference strain rate");
+  p.room_temperature = get_quantity(prm, "Room temperature");
+  p.melt_temperature = get_quantity(prm, "Melt temperature");
+  const ThermalParameters thermal = ThermalParameters::parse(prm, path, eos);
+  p.initial_temperature = thermal.initial_temperature;
+  p.specific_heat = thermal.specific_heat;
+  p.taylor_quinney = thermal.taylor_quinney;
+  p.conductivity = thermal.conductivity;
+  p.thermal_expansion = thermal.expansion;
+  p.has_damage = prm.get_bool("Damage");
+  for (int i = 0; i < 5; ++i)
+    p.D[i] = get_quantity(prm, damage_names[i]);
+  p.smallest_fracture_strain = get_quantity(prm, "Smallest fracture strain");
+  if (p.A <= 0.)
+    throw InputError(path + "/Initial yield stress",
+                     "must be set to a positive stress, for example "
+                     "324 MPa");
+  if (p.melt_temperature <= p.room_temperature)
+    throw InputError(path + "/Melt temperature",
+                     "must be above the room temperature");
+  const double tension = p.D[0] + p.D[1] * std::exp(p.D[2] / 3.);
+  if (p.has_damage && tension <= 0.)
+    throw InputError(path + "/D1",
+                     "D1 to D3 give a fracture strain of " +
+                         std::to_string(tension) +
+                         " in uniaxial tension (sigma* = 1/3); it must be "
+                         "positive");
+  return p;
+}
+
 const RegisterMaterial registered(
     {"Johnson-Cook",
-     "strain, strain-rate and thermal softening with adiabatic heating.",
-     [](dealii::ParameterHandler &prm)
+     "strain, strain-rate and thermal softening with adiabatic heating, "
+     "optional damage.",
+     declare,
+     [](dealii::ParameterHandler &prm, const std::string &path,
+        const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
-       const auto entry = [&](const std::string &name, const std::string &value,
-                              const Dimension d, const double low,
-                              const double high, const std::string &text)
-       { prm.declare_entry(name, value, QuantityPattern(d, low, high), text); };
-       entry("Initial yield stress", "0", Dimension::pressure, 0., 1e12, "A.");
-       entry("Hardening modulus", "0", Dimension::pressure, 0., 1e12, "B.");
-       entry("Hardening exponent", "1", Dimension::none, 0.001, 5., "n.");
-       entry("Strain rate coefficient", "0", Dimension::none, 0., 1., "C.");
-       entry("Thermal softening exponent", "1", Dimension::none, 0.01, 10.,
-             "m.");
-       entry("Reference strain rate", "1 1/s", Dimension::strain_rate, 1e-9,
-             1e9, "Rate below which there is no rate effect.");
-       entry("Room temperature", "294 K", Dimension::temperature, 0., 1e4,
-             "Temperature below which there is no softening.");
-       entry("Initial temperature", "294 K", Dimension::temperature, 0., 1e4,
-             "Temperature at time 0.");
-       entry("Melt temperature", "1000 K", Dimension::temperature, 1., 1e5,
-             "Temperature at which the strength is gone.");
-       entry("Specific heat", "1000 J/kg/K", Dimension::specific_heat, 1., 1e6,
-             "At constant pressure.");
-       entry("Taylor-Quinney fraction", "0.9", Dimension::none, 0., 1.,
-             "Part of the plastic work that becomes heat; 0 switches adiabatic "
-             "heating off.");
-     },
-     [](dealii::ParameterHandler &prm, const std::string &path)
-     {
-       const ElasticConstants elastic = ElasticConstants::parse(prm, path);
        prm.enter_subsection("Johnson-Cook");
-       JohnsonCookParameters p;
-       p.A = get_quantity(prm, "Initial yield stress");
-       p.B = get_quantity(prm, "Hardening modulus");
-       p.n = get_quantity(prm, "Hardening exponent");
-       p.C = get_quantity(prm, "Strain rate coefficient");
-       p.m = get_quantity(prm, "Thermal softening exponent");
-       p.reference_strain_rate = get_quantity(prm, "Reference strain rate");
-       p.room_temperature = get_quantity(prm, "Room temperature");
-       p.initial_temperature = get_quantity(prm, "Initial temperature");
-       p.melt_temperature = get_quantity(prm, "Melt temperature");
-       p.specific_heat = get_quantity(prm, "Specific heat");
-       p.taylor_quinney = get_quantity(prm, "Taylor-Quinney fraction");
+       const JohnsonCookParameters p = parse(prm, path + "/Johnson-Cook", *eos);
        prm.leave_subsection();
-       const std::string here = path + "/Johnson-Cook/";
-       if (p.A <= 0.)
-         throw InputError(here + "Initial yield stress",
-                          "must be set to a positive stress, for example "
-                          "324 MPa");
-       if (p.melt_temperature <= p.room_temperature)
-         throw InputError(here + "Melt temperature",
-                          "must be above the room temperature");
-       return std::make_unique<JohnsonCook>(elastic, p);
+       return std::make_unique<JohnsonCook>(elastic, p, eos);
      }});
 } // namespace
 } // namespace sabot

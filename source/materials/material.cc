@@ -24,21 +24,54 @@ double Material::sound_speed() const
   return std::sqrt((bulk_modulus() + 4. / 3. * shear_modulus()) / density());
 }
 
-void Material::declare_parameters(dealii::ParameterHandler &prm)
+void Material::declare_parameters(dealii::ParameterHandler &prm,
+                                  const std::string &model_name,
+                                  const std::string &equation_of_state)
 {
   std::string text = "Constitutive law. ";
+  bool known = false;
   for (const MaterialModel &model : material_models())
+  {
     text += model.name + ": " + model.description + " ";
+    known = known || model.name == model_name;
+  }
   prm.declare_entry("Model", "Elastic",
                     dealii::Patterns::Selection(selection()), text);
   prm.declare_entry("Source", "", dealii::Patterns::Anything(),
                     "Where the values come from.");
   ElasticConstants::declare_parameters(prm);
+  EquationOfState::declare_parameters(prm, equation_of_state);
   for (const MaterialModel &model : material_models())
+    if (model.declare && (!known || model.name == model_name))
+    {
+      prm.enter_subsection(model.name);
+      model.declare(prm);
+      prm.leave_subsection();
+    }
+}
+
+void Material::check_subsections(const std::string &path,
+                                 const std::vector<std::string> &subsections,
+                                 const std::string &model,
+                                 const std::string &equation_of_state)
+{
+  const auto complain = [&](const std::string &entry, const std::string &unread,
+                            const std::string &selected)
   {
-    prm.enter_subsection(model.name);
-    model.declare(prm);
-    prm.leave_subsection();
+    throw InputError(path + "/" + unread,
+                     "the entries under \"" + unread +
+                         "\" would have no effect: " + entry + " is \"" +
+                         selected + "\"; set " + entry + " = " + unread +
+                         " or remove them");
+  };
+  for (const std::string &section : subsections)
+  {
+    for (const MaterialModel &other : material_models())
+      if (other.declare && section == other.name && section != model)
+        complain("Model", section, model);
+    for (const std::string &other : EquationOfState::names())
+      if (section == other && section != equation_of_state)
+        complain("Equation of state", section, equation_of_state);
   }
 }
 
@@ -46,9 +79,16 @@ std::unique_ptr<Material> Material::make(dealii::ParameterHandler &prm,
                                          const std::string &path)
 {
   const std::string name = prm.get("Model");
+  const ElasticConstants elastic = ElasticConstants::parse(prm, path);
+  std::vector<std::string> warnings;
+  const auto eos = EquationOfState::make(prm, path, elastic, warnings);
   for (const MaterialModel &model : material_models())
     if (model.name == name)
-      return model.make(prm, path);
+    {
+      auto material = model.make(prm, path, elastic, eos);
+      material->warnings = warnings;
+      return material;
+    }
   throw InputError(path + "/Model", "no law is called \"" + name + "\"");
 }
 
@@ -106,18 +146,44 @@ ElasticConstants ElasticConstants::parse(const dealii::ParameterHandler &prm,
   return c;
 }
 
-void ElasticBase::trial_stress(const MaterialBatch &b) const
+ElasticBase::ElasticBase(const ElasticConstants &c, const Eos &eos)
+    : constants(c),
+      eos(eos ? eos : std::make_shared<BulkModulus>(c.bulk_modulus())),
+      G(c.shear_modulus()), n_eos_states(this->eos->state_variables().size())
 {
-  const double two_G = 2. * G, modulus = K;
+}
+
+std::vector<StateVariable> ElasticBase::state_variables() const
+{
+  std::vector<StateVariable> variables = eos->state_variables();
+  for (const StateVariable &variable : law_variables())
+    variables.push_back(variable);
+  return variables;
+}
+
+void ElasticBase::update(const MaterialBatch &batch) const
+{
+  EquationOfState::Start start;
+  eos->begin(batch, start);
+  MaterialBatch law = batch;
+  law.states = batch.states + n_eos_states;
+  Scratch scratch;
+  update_deviator(law, scratch);
+  eos->finish(batch, start, G);
+  after_pressure(law, scratch);
+}
+
+void ElasticBase::trial_deviator(const MaterialBatch &b) const
+{
+  const double two_G = 2. * G;
   double *const *const s = b.stress;
   const double *const *const e = b.strain_increment;
   for (std::size_t k = 0; k < b.n; ++k)
   {
     const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.;
     const double mean = (s[0][k] + s[1][k] + s[2][k]) / 3.;
-    const double pressure = -modulus * std::log(b.jacobian[k]);
     for (int c = 0; c < 3; ++c)
-      s[c][k] += two_G * (e[c][k] - trace) - mean - pressure;
+      s[c][k] += two_G * (e[c][k] - trace) - mean;
     for (int c = 3; c < 6; ++c)
       s[c][k] += two_G * e[c][k];
   }

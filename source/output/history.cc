@@ -2,8 +2,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/output/file_tools.h"
-
-#include <hdf5.h>
+#include "sabot/output/hdf5_tools.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -14,40 +13,6 @@ namespace sabot
 {
 namespace
 {
-/** Closes an HDF5 handle of any kind. */
-class Handle
-{
-public:
-  Handle(const hid_t id, herr_t (*close)(hid_t)) : id(id), close(close) {}
-  ~Handle()
-  {
-    if (id >= 0)
-      close(id);
-  }
-  Handle(const Handle &) = delete;
-  operator hid_t() const { return id; }
-
-private:
-  const hid_t id;
-  herr_t (*const close)(hid_t);
-};
-
-/** Silences HDF5's own error print-out while it lives. */
-class Quiet
-{
-public:
-  Quiet()
-  {
-    H5Eget_auto2(H5E_DEFAULT, &function, &data);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function, data); }
-
-private:
-  H5E_auto2_t function;
-  void *data;
-};
-
 hid_t row_type(const std::vector<std::string> &columns)
 {
   const hid_t type = H5Tcreate(H5T_COMPOUND, columns.size() * sizeof(double));
@@ -71,7 +36,7 @@ void History::append(const std::string &name, const Measures &row)
 
 void History::write(const std::string &file) const
 {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   write_atomically(
       file,
       [&](const std::string &temporary)
@@ -79,22 +44,24 @@ void History::write(const std::string &file) const
         errno = 0;
         bool good = true;
         {
-          const Handle h5(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
-                                    H5P_DEFAULT, H5P_DEFAULT),
-                          H5Fclose);
+          const Hdf5Handle h5(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
+                                        H5P_DEFAULT, H5P_DEFAULT),
+                              H5Fclose);
           good = h5 >= 0;
           for (const auto &[name, table] : tables)
           {
             if (!good || table.columns.empty())
               continue;
             const hsize_t n = table.n_rows();
-            const Handle type(row_type(table.columns), H5Tclose);
-            const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
-            const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+            const Hdf5Handle type(row_type(table.columns), H5Tclose);
+            const Hdf5Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+            const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE),
+                                        H5Pclose);
             H5Pset_obj_track_times(properties, false);
-            const Handle set(H5Dcreate2(h5, name.c_str(), type, space,
-                                        H5P_DEFAULT, properties, H5P_DEFAULT),
-                             H5Dclose);
+            const Hdf5Handle set(H5Dcreate2(h5, name.c_str(), type, space,
+                                            H5P_DEFAULT, properties,
+                                            H5P_DEFAULT),
+                                 H5Dclose);
             good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL,
                                         H5P_DEFAULT, table.values.data()) >= 0;
           }
@@ -112,8 +79,9 @@ void History::write(const std::string &file) const
 
 void History::read(const std::string &file)
 {
-  const Quiet quiet;
-  const Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                      H5Fclose);
   if (h5 < 0)
     throw IOError("cannot read history \"" + file + "\"");
   tables.clear();
@@ -123,9 +91,9 @@ void History::read(const std::string &file)
   {
     char name[1024];
     H5Gget_objname_by_idx(h5, t, name, sizeof(name));
-    const Handle set(H5Dopen2(h5, name, H5P_DEFAULT), H5Dclose);
-    const Handle type(H5Dget_type(set), H5Tclose);
-    const Handle space(H5Dget_space(set), H5Sclose);
+    const Hdf5Handle set(H5Dopen2(h5, name, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
+    const Hdf5Handle space(H5Dget_space(set), H5Sclose);
     Table &table = tables[name];
     const int n_columns = H5Tget_nmembers(type);
     for (int c = 0; c < n_columns; ++c)
@@ -135,7 +103,7 @@ void History::read(const std::string &file)
       H5free_memory(column);
     }
     table.values.resize(n_columns * H5Sget_simple_extent_npoints(space));
-    const Handle memory(row_type(table.columns), H5Tclose);
+    const Hdf5Handle memory(row_type(table.columns), H5Tclose);
     if (H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                 table.values.data()) < 0)
       throw IOError("history \"" + file + "\": table \"" + name +

@@ -46,7 +46,7 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
   MPI_Comm_size(communicator, &n_ranks);
 }
 
-ExitCode Run::execute()
+ExitCode Run::execute(const std::string &checkpoint)
 {
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
@@ -55,10 +55,11 @@ ExitCode Run::execute()
   ExitCode code = ExitCode::done;
   try
   {
-    start();
+    start(checkpoint);
     loop();
     if (interrupted)
     {
+      write_checkpoint();
       status = "interrupted";
       reason = "a signal asked the run to stop";
       code = ExitCode::interrupted;
@@ -72,31 +73,28 @@ ExitCode Run::execute()
     log.line("");
     log.line("The run went wrong at time " + format("%.6e", integrator.time) +
              " s, step " + std::to_string(step) + ": " + reason);
+    // For inspection: what follows from it would go wrong again.
+    if (checkpoints && !within_step)
+      write_checkpoint("failed");
   }
-  try
-  {
-    write_outputs(true);
-    write_result(status, reason);
-  }
-  catch (const IOError &)
-  {
-    throw;
-  }
+  write_outputs(true);
+  write_result(status, reason);
   return code;
 }
 
-void Run::start()
+void Run::open_folder(const bool append)
 {
+  std::ostringstream text;
+  print_expanded(scene.prm, text);
+  expanded_parameters = text.str();
   std::string problem;
   if (rank == 0)
     try
     {
       make_folder(folder);
-      log.open(folder + "/log.txt", false);
-      std::ostringstream text;
-      text << "# Sabot " << version() << "\n";
-      print_expanded(scene.prm, text);
-      write_text(folder + "/parameters.prm", text.str());
+      log.open(folder + "/log.txt", append);
+      write_text(folder + "/parameters.prm",
+                 "# Sabot " + version() + "\n" + expanded_parameters);
     }
     catch (const IOError &e)
     {
@@ -110,15 +108,12 @@ void Run::start()
   for (const OutputSettings &output : scene.outputs)
     if (output.type == OutputSettings::Type::vtu && !fields)
       fields = std::make_unique<VtuWriter>(folder, communicator);
+  checkpoints =
+      std::make_unique<CheckpointFolder>(folder + "/checkpoint", communicator);
+}
 
-  log.line("Sabot " + version() + ", " + std::to_string(n_ranks) +
-           (n_ranks == 1 ? " rank" : " ranks") +
-           (scene.settings.title.empty() ? "" : ": " + scene.settings.title));
-  {
-    const auto timer = timers.scope("set-up");
-    scene.distribute();
-    integrator.initialize();
-  }
+void Run::describe_scene()
+{
   for (const auto &body : scene.bodies)
     log.line("  body " + body->name + ": " + std::to_string(body->n_items()) +
              " " + body->item_name());
@@ -135,8 +130,42 @@ void Run::start()
                     ": nodes start inside the other body by up to " +
                     format("%.3g", m.value) + " spacings");
     }
+}
 
+void Run::start(const std::string &checkpoint)
+{
+  const bool resumed = !checkpoint.empty();
+  open_folder(resumed);
+  log.line("Sabot " + version() + ", " + std::to_string(n_ranks) +
+           (n_ranks == 1 ? " rank" : " ranks") +
+           (scene.settings.title.empty() ? "" : ": " + scene.settings.title));
+  {
+    const auto timer = timers.scope("set-up");
+    scene.distribute();
+    integrator.initialize();
+  }
+  describe_scene();
   next_output.assign(scene.outputs.size(), 0.);
+  next_checkpoint_wall = scene.settings.checkpoint_wall_time;
+  if (resumed)
+    restore(checkpoint);
+  else
+  {
+    checkpoints->clear();
+    set_initial_values();
+    record();
+    write_outputs(false);
+  }
+  if (scene.settings.checkpoint_interval > 0.)
+    next_checkpoint =
+        (std::floor(integrator.time / scene.settings.checkpoint_interval *
+                    (1. + 1e-12)) +
+         1.) *
+        scene.settings.checkpoint_interval;
+}
+
+void Run::set_initial_values()
+{
   const Balance balance = balance_energy();
   initial_energy = balance.total;
   largest_energy = std::abs(balance.total);
@@ -157,8 +186,6 @@ void Run::start()
     for (int d = 0; d < 3; ++d)
       initial_momentum[d] += mass * velocity[d];
   }
-  record();
-  write_outputs(false);
 }
 
 double Run::next_step(const StepProposal &proposal) const
@@ -204,9 +231,11 @@ void Run::loop()
                          " s (limiter: " + limiter + ")");
     if (dt < scene.settings.end_time - integrator.time)
       smallest_step = std::min(smallest_step, proposal.dt);
+    within_step = true;
     integrator.advance(dt);
     ++step;
     integrator.update_topology(step);
+    within_step = false;
     const bool check =
         integrator.time >= next_check ||
         integrator.time >= scene.settings.end_time * (1. - 1e-12);
@@ -221,6 +250,8 @@ void Run::loop()
     log.progress(progress_text());
     if (recorded)
       check_energy();
+    if (checkpoint_due())
+      write_checkpoint();
   }
   log.progress(progress_text(), true);
 }
@@ -430,9 +461,7 @@ void Run::write_outputs(const bool all)
 
 std::string Run::progress_text() const
 {
-  const double wall = std::chrono::duration<double>(
-                          std::chrono::steady_clock::now() - start_time)
-                          .count();
+  const double wall = elapsed_seconds();
   const double done = integrator.time / scene.settings.end_time;
   const double left = done > 0. ? wall * (1. - done) / done : 0.;
   char text[256];

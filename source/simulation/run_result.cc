@@ -1,12 +1,14 @@
-#include "sabot/couplings/contact.h"
+#include "sabot/base/quantity.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/run.h"
+#include "sabot/simulation/zone_verdict.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace sabot
 {
@@ -24,6 +26,94 @@ double cpu_seconds(const rusage &usage)
 {
   return usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
          1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+ordered_json zone_results(const std::vector<ZoneVerdict> &verdicts)
+{
+  ordered_json zones = ordered_json::object();
+  const auto reached = [](const double distance)
+  {
+    const bool anywhere = distance < std::numeric_limits<double>::max();
+    return ordered_json{
+        {"reached", anywhere},
+        {"distance_from_tie_in_spacings",
+         anywhere ? ordered_json(distance) : ordered_json(nullptr)}};
+  };
+  const auto box = [](const ZoneVerdict::Box &b)
+  {
+    return ordered_json{{"size", b.size},
+                        {"particles", b.n_particles},
+                        {"seconds_saved", number(b.seconds_saved)}};
+  };
+  for (const ZoneVerdict &v : verdicts)
+    zones[v.zone] = {
+        {"carved_from", v.host},
+        {"spacing", v.spacing},
+        {"particles", v.n_particles},
+        {"plastic_strain_over_0.01", reached(v.plastic_distance)},
+        {"broken_bonds", reached(v.bond_distance)},
+        {"smallest_zone", box(v.for_both)},
+        {"smallest_zone_for_broken_bonds", box(v.for_bonds)},
+        {"is_lower_bound", v.is_lower_bound()},
+        {"verdict", v.bond_distance <= 0.      ? "bonds broke at the tie"
+                    : v.plastic_distance <= 0. ? "plastic flow passed the tie"
+                                               : "contained"}};
+  return zones;
+}
+
+/** Every entry that trades speed for accuracy, as it is in force. */
+ordered_json knob_results(const dealii::ParameterHandler &prm)
+{
+  static const std::vector<std::string>
+      of_bodies = {"Discretization",
+                   "Nodal spacing",
+                   "Size",
+                   "Cell size",
+                   "Coarsest cell size",
+                   "Growth ratio",
+                   "Core radius",
+                   "Refined zone size",
+                   "Sector",
+                   "Symmetry faces",
+                   "Integration",
+                   "Inversion",
+                   "Erosion plastic strain",
+                   "Erosion damage",
+                   "Erosion step",
+                   "Normalised support size",
+                   "Kernel update interval",
+                   "Failure check interval",
+                   "Stabilisation coefficient",
+                   "Hourglass control",
+                   "Hourglass coefficient",
+                   "Linear bulk viscosity",
+                   "Quadratic bulk viscosity",
+                   "Mass scaling"},
+      of_couplings = {"Type", "Stiffness scale", "Damping fraction",
+                      "Contact distance", "Tolerance"};
+  std::ostringstream text;
+  // Printing does not change the handler, but is not declared so.
+  const_cast<dealii::ParameterHandler &>(prm).print_parameters(
+      text, dealii::ParameterHandler::JSON);
+  const ordered_json tree = ordered_json::parse(text.str());
+  ordered_json knobs = ordered_json::object();
+  const auto value = [](const ordered_json &node, const std::string &entry)
+  { return node[entry].value("value", ""); };
+  for (const char *const entry :
+       {"Step factor", "Largest step", "List of couplings"})
+    knobs[entry] = value(tree, entry);
+  const auto collect = [&](const std::string &section, const std::string &list,
+                           const std::vector<std::string> &entries)
+  {
+    for (const std::string &name : split_names(value(tree, list)))
+      for (const std::string &entry : entries)
+        if (tree[section][name].contains(entry))
+          knobs[section + "/" + name + "/" + entry] =
+              value(tree[section][name], entry);
+  };
+  collect("Bodies", "List of bodies", of_bodies);
+  collect("Couplings", "List of couplings", of_couplings);
+  return knobs;
 }
 } // namespace
 
@@ -97,9 +187,7 @@ void Run::write_result(const std::string &status, const std::string &reason)
   r["ranks"] = n_ranks;
   r["steps"] = step;
   r["time"] = integrator.time;
-  r["wall_seconds"] = std::chrono::duration<double>(
-                          std::chrono::steady_clock::now() - start_time)
-                          .count();
+  r["wall_seconds"] = elapsed_seconds();
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   double sums[2] = {cpu_seconds(usage), 1024. * usage.ru_maxrss};
@@ -131,32 +219,10 @@ void Run::write_result(const std::string &status, const std::string &reason)
     }
   r["contact"] = {{"penetration_max_over_spacing", number(penetration)},
                   {"initial_penetration_over_spacing", number(initial)}};
-  // What trades speed for accuracy, as the scene set it.
-  r["knobs"] = {{"Step factor", scene.settings.step_factor}};
-  for (const auto &body : scene.bodies)
-    for (const char *const entry :
-         {"Nodal spacing", "Cell size", "Coarsest cell size", "Growth ratio",
-          "Normalised support size", "Kernel update interval",
-          "Stabilisation coefficient", "Hourglass control",
-          "Hourglass coefficient"})
-    {
-      scene.prm.enter_subsection("Bodies");
-      scene.prm.enter_subsection(body->name);
-      std::string text;
-      bool known = true;
-      try
-      {
-        text = scene.prm.get(entry);
-      }
-      catch (const dealii::ExceptionBase &)
-      {
-        known = false; // not an entry of this kind of body
-      }
-      scene.prm.leave_subsection();
-      scene.prm.leave_subsection();
-      if (known)
-        r["knobs"]["Bodies/" + body->name + "/" + entry] = text;
-    }
+  const std::vector<ZoneVerdict> zones =
+      judge_zones(scene, timers, step, communicator);
+  r["zone"] = zone_results(zones);
+  r["knobs"] = knob_results(scene.prm);
 
   std::string problem;
   if (rank == 0)
@@ -180,6 +246,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
                 status.c_str(), step, integrator.time,
                 r["wall_seconds"].get<double>(), largest_residual);
   log.line(text);
+  for (const ZoneVerdict &zone : zones)
+    log.line("  " + describe(zone));
   for (const Measure &m : values)
   {
     std::snprintf(text, sizeof(text), "  %s: %.6g %s", m.name.c_str(), m.value,

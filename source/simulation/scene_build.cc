@@ -120,6 +120,10 @@ void Scene::read_settings()
   settings.step_factor = get_quantity(prm, "Step factor");
   settings.largest_step = get_quantity(prm, "Largest step");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
+  settings.checkpoint_interval = get_quantity(prm, "Checkpoint interval");
+  settings.checkpoint_steps = prm.get_integer("Checkpoint interval in steps");
+  settings.checkpoint_wall_time =
+      get_quantity(prm, "Checkpoint interval of wall time");
   if (split_names(prm.get("List of bodies")).empty())
     throw InputError("List of bodies",
                      "the scene has no bodies; list their names");
@@ -131,6 +135,8 @@ void Scene::build_materials()
   {
     const Entered entered(prm, "Materials", name);
     material_by_name[name] = Material::make(prm, "Materials/" + name);
+    for (const std::string &warning : material_by_name[name]->warnings)
+      warnings.push_back(warning);
   }
 }
 
@@ -177,7 +183,7 @@ void Scene::build_bodies()
 
     if (prm.get("Discretization") == "SPG")
     {
-      SpgOptions options = SpgOptions::parse(prm);
+      SpgOptions options = SpgOptions::parse(prm, path);
       for (const unsigned int face : face_ids(
                path + "/Symmetry faces", prm.get("Symmetry faces"), box_faces))
         options.symmetry_faces |= 1 << face;

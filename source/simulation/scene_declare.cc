@@ -34,6 +34,16 @@ void declare_top(ParameterHandler &prm)
                     QuantityPattern(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
                     "is off by more than this fraction.");
+  prm.declare_entry("Checkpoint interval", "0 s",
+                    QuantityPattern(Dimension::time, 0., 1e3),
+                    "Physical time between checkpoints; 0: not by time. An "
+                    "interrupted run always leaves one.");
+  prm.declare_entry("Checkpoint interval in steps", "0", Patterns::Integer(0),
+                    "Steps between checkpoints; 0: not by steps.");
+  prm.declare_entry("Checkpoint interval of wall time", "600 s",
+                    QuantityPattern(Dimension::time, 0., 1e7),
+                    "Wall-clock time between checkpoints; 0: not by wall "
+                    "time.");
   prm.declare_entry("List of bodies", "", names,
                     "Names of the bodies, in order.");
   prm.declare_entry("List of couplings", "", names, "Names of the couplings.");
@@ -307,7 +317,18 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
   const auto read = [&](const std::string &path, const std::string &standard)
   { return file == nullptr ? standard : file->value(path, standard); };
   each("Materials", {"<name>"},
-       [&](const auto &, const auto &) { Material::declare_parameters(prm); });
+       [&](const std::string &path, const auto &)
+       {
+         // The manual shows all laws, a scene may set the chosen one's only.
+         if (file == nullptr)
+           return Material::declare_parameters(prm);
+         const std::string model = read(path + "/Model", "Elastic"),
+                           equation_of_state = read(path + "/Equation of state",
+                                                    "Bulk modulus");
+         Material::check_subsections(path, file->subsections(path), model,
+                                     equation_of_state);
+         Material::declare_parameters(prm, model, equation_of_state);
+       });
   each("Bodies",
        {"<FEM box>", "<FEM cylinder>", "<FEM sphere>", "<FEM projectile>",
         "<FEM file>", "<SPG box>"},

@@ -99,7 +99,7 @@ TEST(Tie, a_pulse_crosses_and_momentum_and_energy_stay)
     double worst = 0., arrived = 0.;
     while (world.integrator.time < 5e-6)
     {
-      world.advance(0.9);
+      world.advance(0.6);
       worst = std::max(worst, std::abs(world.total_energy() - energy));
       NodalState &p = world.bodies[1]->nodes();
       for (std::size_t i = 0; i < p.n_owned; ++i)

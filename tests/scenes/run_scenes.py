@@ -3,6 +3,7 @@
 
 Scenes on several ranks, results and files, bad input, signals, exit codes.
 """
+import csv
 import glob
 import json
 import os
@@ -111,6 +112,22 @@ class Scenes(unittest.TestCase):
                                    delta=1e-6)
         self.assertEqual(histories[0], histories[1])
 
+    def test_materials_are_the_same_on_1_2_and_3_ranks(self):
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("materials%d" % ranks)
+            done = sabot("run", os.path.join(SOURCE,
+                                             "tests/scenes/materials.prm"),
+                         "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        self.assertLess(r["energy_residual_max"], 0.02)
+        self.assertGreater(r["bodies"]["flyer"]["plastic_strain_max"], 0.05)
+
     def test_taylor_bar(self):
         out = folder("taylor")
         done = sabot("run", os.path.join(SOURCE, "prm/taylor/symmetric.prm"),
@@ -138,7 +155,7 @@ class Scenes(unittest.TestCase):
                     "time", "wall_seconds", "cpu_seconds", "peak_memory_bytes",
                     "energy_residual_max", "momentum_residual_max",
                     "stable_step_min", "bodies", "quantities", "timers",
-                    "contact", "knobs"):
+                    "contact", "zone", "knobs"):
             self.assertIn(key, r)
         self.assertEqual(r["status"], "completed")
         self.assertAlmostEqual(r["time"], 5e-6, delta=1e-18)
@@ -160,13 +177,21 @@ class Scenes(unittest.TestCase):
 
     def test_every_shipped_scene_is_valid(self):
         scenes = [s for s in glob.glob(os.path.join(SOURCE, "prm/*/*.prm"))
-                  if "/materials/" not in s]
+                  if "/materials/" not in s and "/studies/" not in s]
         self.assertGreater(len(scenes), 5)
         for scene in scenes:
             if scene.endswith("0.5mm.prm"):
                 continue  # as the others, but slow to lay out
             done = sabot("check", scene)
             self.assertEqual(done.returncode, 0, scene + "\n" + done.stdout)
+
+    def test_every_shipped_study_is_valid(self):
+        studies = glob.glob(os.path.join(SOURCE, "prm/studies/*.prm"))
+        self.assertGreater(len(studies), 5)
+        for study in studies:
+            done = sabot("study", study, "--list")
+            self.assertEqual(done.returncode, 0, study + "\n" + done.stdout)
+            self.assertGreater(len(done.stdout.splitlines()), 1)
 
     def test_every_shipped_material_is_valid(self):
         for material in glob.glob(os.path.join(SOURCE, "prm/materials/*.prm")):
@@ -191,6 +216,8 @@ class Scenes(unittest.TestCase):
             ("Quantities/speed/Body=brick", "no body is called \"brick\""),
             ("End time=0", "a time"),
             ("Nonsense=1", "unknown entry"),
+            ("Materials/metal/Johnson-Cook/D1=1", "would have no effect"),
+            ("Materials/metal/Model=Neo-Hookean", "FEM"),
         )
         for override, expected in cases:
             out = folder("bad")
@@ -231,6 +258,265 @@ class Scenes(unittest.TestCase):
         self.assertEqual(r["status"], "interrupted")
         self.assertTrue(os.path.exists(os.path.join(out, "sabot.pvd")))
         self.assertTrue(os.path.exists(os.path.join(out, "history.h5")))
+
+    def test_a_resumed_run_is_the_straight_run_bit_for_bit(self):
+        # Contact, broken bonds and debris; checkpoints fall between outputs.
+        settings = ("--quiet", "--set", "End time=6 us", "--set",
+                    "Outputs/fields/Interval=2.5 us")
+        for ranks in (1, 2):
+            straight = folder("straight")
+            done = sabot("run", QUICK, "-o", straight, *settings, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            steps = result(straight)["steps"]
+            parted = folder("parted")
+            done = sabot("run", QUICK, "-o", parted, *settings, "--set",
+                         "Checkpoint interval in steps=%d" % (0.4 * steps),
+                         ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            files = sorted(os.listdir(os.path.join(parted, "checkpoint")))
+            self.assertEqual(len(files), 2)
+            for name in ("history.h5", "result.json", "sabot.pvd"):
+                os.remove(os.path.join(parted, name))
+            # A damaged file is passed over for the one before.
+            newest = os.path.join(parted, "checkpoint", files[-1])
+            size = os.path.getsize(newest)
+            with open(newest, "r+b") as file:
+                file.seek(size // 2)
+                byte = file.read(1)
+                file.seek(size // 2)
+                file.write(bytes([byte[0] ^ 1]))
+            done = sabot("resume", parted, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(parted, "log.txt")) as file:
+                log = file.read()
+            self.assertIn("damaged", log)
+            self.assertIn("resumed at step %d," % int(0.4 * steps), log)
+            for name in ("history.h5", "sabot.pvd"):
+                with open(os.path.join(straight, name), "rb") as a, \
+                        open(os.path.join(parted, name), "rb") as b:
+                    self.assertEqual(a.read(), b.read(), name)
+            self.assertGreater(result(parted)["bodies"]["core"]
+                               ["bonds_broken_fraction"], 0.01)
+            # The other number of ranks is refused.
+            done = sabot("resume", parted, "--quiet", ranks=3 - ranks)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("mpirun -np %d" % ranks, done.stdout)
+
+    def test_all_kinds_of_bodies_resume_bit_for_bit(self):
+        erosion = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")
+        coarse = ("--set", "Bodies/plate/Cell size=2.5 mm", "--set",
+                  "End time=5 us", "--set", "Outputs/fields/Interval=5 us")
+        rigid = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        materials = os.path.join(SOURCE, "tests/scenes/materials.prm")
+        b_bar = ("--set", "Bodies/plate/Integration=B-bar", "--set",
+                 "Bodies/plate/Objective rate=Green-Naghdi")
+        for name, scene, ranks, settings in (
+                ("erosion", erosion, 1, coarse),
+                ("erosion on two ranks", erosion, 2, coarse),
+                ("erosion of B-bar cells", erosion, 1, coarse + b_bar),
+                ("rigid", rigid, 2, ("--set", "End time=2 us")),
+                ("materials", materials, 2, ())):
+            with self.subTest(name):
+                straight, parted = folder("whole"), folder("parts")
+                done = sabot("run", scene, "-o", straight, "--quiet", *settings,
+                             ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                every = int(0.6 * result(straight)["steps"])
+                done = sabot("run", scene, "-o", parted, "--quiet", *settings,
+                             "--set", "Checkpoint interval in steps=%d" % every,
+                             ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                os.remove(os.path.join(parted, "history.h5"))
+                done = sabot("resume", parted, "--quiet", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                with open(os.path.join(parted, "log.txt")) as file:
+                    self.assertIn("resumed at step %d," % every, file.read())
+                with open(os.path.join(straight, "history.h5"), "rb") as a, \
+                        open(os.path.join(parted, "history.h5"), "rb") as b:
+                    self.assertEqual(a.read(), b.read())
+                whole, parts = result(straight), result(parted)
+                for key in ("bodies", "energy", "quantities", "contact"):
+                    self.assertEqual(whole[key], parts[key])
+                if "erosion" in name:
+                    self.assertGreater(
+                        whole["bodies"]["plate"]["eroded_cells"], 5)
+
+    def test_a_signalled_run_resumes(self):
+        settings = ("--quiet", "--set", "End time=3 ms", "--set",
+                    "Outputs/fields/Interval=1 ms", "--set",
+                    "Outputs/averages/Interval=10 us")
+        straight, parted = folder("bar-straight"), folder("bar-parted")
+        done = sabot("run", BAR, "-o", straight, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        process = subprocess.Popen([SABOT, "run", BAR, "-o", parted,
+                                    *settings])
+        while not os.path.exists(os.path.join(parted, "sabot.pvd")):
+            time.sleep(0.01)
+        time.sleep(0.2)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 3)
+        r = result(parted)
+        self.assertEqual(r["status"], "interrupted")
+        self.assertLess(r["time"], 3e-3)
+        self.assertEqual(sabot("resume", parted, "--quiet", "--set",
+                               "Bodies/block/Size=1 m").returncode, 1)
+        done = sabot("resume", parted, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(result(parted)["status"], "completed")
+        for name in ("history.h5", "sabot.pvd"):
+            with open(os.path.join(straight, name), "rb") as a, \
+                    open(os.path.join(parted, name), "rb") as b:
+                self.assertEqual(a.read(), b.read(), name)
+
+    def test_a_failed_run_leaves_its_last_state(self):
+        out = folder("failed")
+        done = sabot("run", os.path.join(SOURCE, "prm/taylor/symmetric.prm"),
+                     "-o", out, "--quiet", "--set",
+                     "Energy residual limit=1e-6", "--set",
+                     "Bodies/upper/Cell size=1.6 mm", "--set",
+                     "Bodies/lower/Cell size=1.6 mm")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertEqual(result(out)["status"], "failed")
+        self.assertEqual(os.listdir(os.path.join(out, "checkpoint")),
+                         ["failed.h5"])
+        done = sabot("resume", out)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("holds no checkpoint", done.stdout)
+
+    def test_a_plan_is_right_within_a_factor_of_1_5(self):
+        taylor = os.path.join(SOURCE, "prm/taylor/symmetric.prm")
+        coarse = ("--set", "Bodies/upper/Cell size=1.2 mm", "--set",
+                  "Bodies/lower/Cell size=1.2 mm")
+        for scene, settings in ((QUICK, ("--set", "End time=15 us")),
+                                (taylor, coarse)):
+            # Time depends on what else the machine does: it may be tried again.
+            for attempt in range(3):
+                file = os.path.join(WORK, "plan.json")
+                done = sabot("plan", scene, "--json", file, *settings)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                with open(file) as stream:
+                    plan = json.load(stream)
+                out = folder("planned")
+                done = sabot("run", scene, "-o", out, "--quiet", *settings)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                r = result(out)
+                size = sum(os.path.getsize(os.path.join(where, name))
+                           for where, _, names in os.walk(out)
+                           for name in names)
+                ratios = {
+                    "steps": plan["steps"] / r["steps"],
+                    "memory": plan["memory_bytes"] / r["peak_memory_bytes"],
+                    "output": plan["output_bytes"] / size,
+                    "time": plan["wall_seconds"] / r["wall_seconds"]}
+                print(os.path.basename(scene), ratios)
+                if 1 / 1.5 < ratios["time"] < 1.5:
+                    break
+            for name, ratio in ratios.items():
+                self.assertLess(ratio, 1.5, name)
+                self.assertGreater(ratio, 1 / 1.5, name)
+
+    def test_a_plan_warns_of_switches_that_disagree(self):
+        done = sabot("plan", QUICK, "--set", "List of couplings=zone, impact",
+                     "--set", "Bodies/core/Size=20 mm, 20 mm, 12.7 mm")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("no self-contact", done.stdout)
+        self.assertIn("narrower than the region", done.stdout)
+        # rho v^2 / Y and t v / (thickness + length), by hand.
+        self.assertIn("yield = 7.84", done.stdout)
+        self.assertIn("transits = 1.63", done.stdout)
+        self.assertIn("boundary = 1.82", done.stdout)
+        done = sabot("plan", QUICK, "--set",
+                     "Bodies/projectile/Initial velocity=0 m/s, 0 m/s, -6 km/s",
+                     "--set", "End time=2 us")
+        self.assertIn("has no equation of state", done.stdout)
+
+    def test_a_plan_knows_all_kinds_of_bodies(self):
+        short = ("--set", "End time=1 us")
+        coarse = ("--set", "Bodies/plate/Cell size=2.5 mm")
+        for scene, settings, expected in (
+                ("fem-erosion", coarse, "yield = 7.84"),
+                ("fem-erosion", coarse + (
+                    "--set", "Bodies/plate/Integration=B-bar"), "cells"),
+                ("rigid-projectile", (), "never yields"),
+                ("fem-erosion", coarse + (
+                    "--set", "Bodies/projectile/Geometry=projectile", "--set",
+                    "Bodies/projectile/Discretization=rigid", "--set",
+                    "Bodies/projectile/Centre=0 mm, 0 mm, 30 mm"),
+                 "transits")):
+            done = sabot("plan", os.path.join(
+                SOURCE, "prm/perforation/%s.prm" % scene), *settings, *short)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn(expected, done.stdout)
+
+    def test_a_study_runs_resumes_and_reports(self):
+        study = os.path.join(SOURCE, "tests/scenes/study.prm")
+        out = folder("study")
+        done = sabot("study", study, "-o", out)
+        # One run of the study goes wrong by intent and is passed over.
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("4 of 5 runs complete", done.stdout)
+        self.assertIn("exit code 1", done.stdout)
+        with open(os.path.join(out, "study.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 5)
+        self.assertEqual([row["status"] for row in rows].count("completed"), 4)
+        self.assertEqual(rows[0]["spacing"], "1.25 mm")
+        self.assertAlmostEqual(float(rows[0]["speed [m/s]"]), 10., delta=1e-9)
+        self.assertLess(float(rows[0]["relative error of speed"]), 1e-9)
+        with open(os.path.join(out, "report.html")) as file:
+            html = file.read()
+        for text in ("Price list", "Convergence", "Pareto front", "<svg",
+                     "speed over time", "step factor"):
+            self.assertIn(text, html)
+        self.assertNotIn("http", html)  # self-contained
+        self.assertTrue(os.path.exists(os.path.join(out, "study.h5")))
+        if shutil.which("xvfb-run") or "DISPLAY" in os.environ:
+            pictures = glob.glob(os.path.join(out, "charts/*.png"))
+            self.assertEqual(len(pictures), 5, done.stdout)
+        # Nothing that is done is done again.
+        runs = {name: os.path.getmtime(os.path.join(out, "runs", name,
+                                                    "result.json"))
+                for name in os.listdir(os.path.join(out, "runs"))
+                if os.path.exists(os.path.join(out, "runs", name,
+                                               "result.json"))}
+        done = sabot("study", study, "-o", out)
+        self.assertIn("4 of them kept", done.stdout)
+        for name, when in runs.items():
+            self.assertEqual(when, os.path.getmtime(
+                os.path.join(out, "runs", name, "result.json")))
+        for override, expected in (
+                ("Parameters/spacing/Entries=Bodies/blok/Nodal spacing",
+                 "belongs to Bodies/block"),
+                ("Parameters/spacing/Values=1 mm | 2 mm", "2 parts for 1"),
+                ("Scene=nowhere.prm", "nowhere.prm"),
+                ("Quantities/sped/Source=x", "did you mean \"speed\"")):
+            done = sabot("study", study, "-o", out, "--set", override)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(expected, done.stdout)
+
+    def test_a_study_passes_a_signal_on_and_goes_on_later(self):
+        study = os.path.join(SOURCE, "tests/scenes/study.prm")
+        out = folder("study-signal")
+        settings = ("--set", "Parameters/spacing/Values=1.25 mm", "--set",
+                    "Parameters/step factor/Values=0.9; 0.8", "--set",
+                    "Parameters/material/Values=2700 kg/m^3 | metal", "--set",
+                    "Parameters/material/Labels=metal", "--set",
+                    "Fixed entries=End time=4 ms; Outputs/fields/Interval=4 ms;"
+                    "Outputs/averages/Interval=0.1 ms")
+        process = subprocess.Popen([SABOT, "study", study, "-o", out,
+                                    *settings], stdout=subprocess.DEVNULL)
+        while len(glob.glob(os.path.join(out, "runs/*/sabot.pvd"))) < 2:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 3)
+        for name in glob.glob(os.path.join(out, "runs/*")):
+            self.assertEqual(result(name)["status"], "interrupted")
+        done = sabot("study", study, "-o", out, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("2 of 2 runs complete", done.stdout)
+        for name in glob.glob(os.path.join(out, "runs/*")):
+            with open(os.path.join(name, "log.txt")) as file:
+                self.assertIn("resumed at step", file.read())
 
     def test_an_unwritable_folder_is_an_io_error(self):
         done = sabot("run", BAR, "-o", "/proc/results")

@@ -22,7 +22,10 @@ enum class Dimension
   specific_heat,
   strain_rate,
   energy,
-  angle
+  angle,
+  inverse_temperature,
+  inverse_pressure,
+  conductivity
 };
 
 /**

@@ -45,6 +45,14 @@ struct DebrisView
   double spacing = 0.;            // [m]
 };
 
+/** A connected piece of a body whose bonds may fail. */
+struct Fragment
+{
+  GlobalIndex n_particles = 0;
+  double mass = 0.;                 // [kg]
+  std::array<double, 3> velocity{}; // of the centre of mass [m/s]
+};
+
 /**
  * Anything with nodes that moves. The integrator, the couplings and the output
  * see bodies through this class only.
@@ -116,6 +124,10 @@ public:
   {
     return false;
   }
+
+  /** Pieces that bonds still hold together, heaviest first; empty for a body
+      that cannot come apart. Collective, same on all ranks. */
+  virtual std::vector<Fragment> fragments() const { return {}; }
 
   /** "particles" or "cells", the number over all ranks, and the name of the
       timer of the force loop ("spg step", "fem step"). */

@@ -20,6 +20,46 @@ inline double cubic_spline(const double r)
                   : 4. / 3. * (1. - r) * (1. - r) * (1. - r);
 }
 
+/** Derivative of cubic_spline() by r. */
+inline double cubic_spline_slope(const double r)
+{
+  if (r >= 1.)
+    return 0.;
+  return r <= 0.5 ? r * (12. * r - 8.) : -4. * (1. - r) * (1. - r);
+}
+
+/** Kernel weight at @p xi = H^-1 dX: spline of the radius. */
+struct SphericalKernel
+{
+  static double weight(const Vec xi) { return cubic_spline(norm(xi)); }
+  /** Gradient by xi. */
+  static Vec slope(const Vec xi)
+  {
+    const double r = norm(xi);
+    return r > 0. ? cubic_spline_slope(r) / r * xi : Vec{};
+  }
+};
+
+/** Product of splines along the kernel's axes (Wu & Wu 2018, Eq. 18). */
+struct TensorKernel
+{
+  static double weight(const Vec xi)
+  {
+    return cubic_spline(std::abs(xi[0])) * cubic_spline(std::abs(xi[1])) *
+           cubic_spline(std::abs(xi[2]));
+  }
+  static Vec slope(const Vec xi)
+  {
+    double w[3], s[3];
+    for (int d = 0; d < 3; ++d)
+    {
+      w[d] = cubic_spline(std::abs(xi[d]));
+      s[d] = std::copysign(cubic_spline_slope(std::abs(xi[d])), xi[d]);
+    }
+    return vec(s[0] * w[1] * w[2], w[0] * s[1] * w[2], w[0] * w[1] * s[2]);
+  }
+};
+
 inline Eigen::Matrix3d to_eigen(const Mat &a)
 {
   Eigen::Matrix3d m;

@@ -117,6 +117,15 @@ inline PackMat adjugate(const PackMat &a)
   return r;
 }
 
+/** The matrix of one lane. */
+inline Mat lane_of(const PackMat &a, const std::size_t lane)
+{
+  Mat r;
+  for (int i = 0; i < 3; ++i)
+    r.row[i] = vec(a.m[i][0][lane], a.m[i][1][lane], a.m[i][2][lane]);
+  return r;
+}
+
 inline PackMat multiply(const PackMat &a, const PackMat &b)
 {
   PackMat c;

@@ -1,6 +1,10 @@
 #ifndef sabot_kernels_vec_h
 #define sabot_kernels_vec_h
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 #include <array>
 #include <cmath>
 
@@ -23,6 +27,27 @@ inline Vec vec(const double x, const double y, const double z)
 inline Vec broadcast(const double a)
 {
   return Vec{a, a, a, a};
+}
+
+/** Single-precision storage of a Vec, 16 bytes. */
+typedef float StoredVec __attribute__((vector_size(16)));
+
+inline Vec load(const StoredVec a)
+{
+#ifdef __AVX__ // GCC 12 converts the halves one by one otherwise
+  return _mm256_cvtps_pd(a);
+#else
+  return __builtin_convertvector(a, Vec);
+#endif
+}
+
+inline StoredVec store(const Vec a)
+{
+#ifdef __AVX__
+  return _mm256_cvtpd_ps(a);
+#else
+  return __builtin_convertvector(a, StoredVec);
+#endif
 }
 
 inline double dot(const Vec a, const Vec b)
@@ -93,6 +118,12 @@ inline Mat operator*(const Mat &a, const Mat &b)
     c.row[i] = a.row[i][0] * b.row[0] + a.row[i][1] * b.row[1] +
                a.row[i][2] * b.row[2];
   return c;
+}
+
+/** a b without sums across lanes, for @p a given by its columns in row[]. */
+inline Vec multiply_columns(const Mat &columns, const Vec b)
+{
+  return b[0] * columns.row[0] + b[1] * columns.row[1] + b[2] * columns.row[2];
 }
 
 inline Mat transpose(const Mat &a)

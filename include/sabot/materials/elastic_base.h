@@ -1,6 +1,7 @@
 #ifndef sabot_materials_elastic_base_h
 #define sabot_materials_elastic_base_h
 
+#include "sabot/materials/equation_of_state.h"
 #include "sabot/materials/material.h"
 
 #include <functional>
@@ -28,33 +29,54 @@ struct ElasticConstants
                                 const std::string &path);
 };
 
+/** A law for the deviator, composed with an equation of state. */
 class ElasticBase : public Material
 {
 public:
-  explicit ElasticBase(const ElasticConstants &c)
-      : constants(c), K(c.bulk_modulus()), G(c.shear_modulus())
-  {
-  }
+  using Eos = std::shared_ptr<const EquationOfState>;
+  /** Without @p eos the pressure is -K ln J. */
+  explicit ElasticBase(const ElasticConstants &constants, const Eos &eos = {});
   double density() const override { return constants.density; }
-  double bulk_modulus() const override { return K; }
+  double bulk_modulus() const override { return eos->bulk_modulus(); }
   double shear_modulus() const override { return G; }
+  std::vector<StateVariable> state_variables() const final;
+  void update(const MaterialBatch &batch) const final;
+  bool needs_viscous_pressure() const override
+  {
+    return eos->needs_viscous_pressure();
+  }
+  bool stiffens() const override { return eos->stiffens(); }
 
 protected:
-  /** Deviator <- deviator + 2 G dev(dE) and pressure -K ln J, for all points;
-      the stress arrays then hold the trial stress. */
-  void trial_stress(const MaterialBatch &batch) const;
+  virtual std::vector<StateVariable> law_variables() const { return {}; }
+  /** One number per point that a law may keep between the two calls. */
+  using Scratch = double[max_batch_points];
+  /** From the old stress to the new deviator; states are law_variables(). */
+  virtual void update_deviator(const MaterialBatch &batch,
+                               Scratch &scratch) const = 0;
+  /** Called with the new stress, the pressure included. */
+  virtual void after_pressure(const MaterialBatch &, const Scratch &) const {}
+
+  /** Deviator <- deviator + 2 G dev(dE), the trial deviator; no pressure. */
+  void trial_deviator(const MaterialBatch &batch) const;
 
   const ElasticConstants constants;
-  const double K, G;
+  const Eos eos;
+  const double G;
+
+private:
+  const std::size_t n_eos_states;
 };
 
 /** A law that scenes can name. A law's file registers it. */
 struct MaterialModel
 {
   std::string name, description;
+  /** Empty for a law without entries of its own. */
   std::function<void(dealii::ParameterHandler &)> declare;
-  std::function<std::unique_ptr<Material>(dealii::ParameterHandler &,
-                                          const std::string &path)>
+  std::function<std::unique_ptr<Material>(
+      dealii::ParameterHandler &, const std::string &path,
+      const ElasticConstants &, const ElasticBase::Eos &)>
       make;
 };
 std::vector<MaterialModel> &material_models();

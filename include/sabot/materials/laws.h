@@ -2,85 +2,84 @@
 #define sabot_materials_laws_h
 
 #include "sabot/materials/elastic_base.h"
+#include "sabot/materials/johnson_cook.h"
+#include "sabot/materials/steinberg_guinan.h"
+#include "sabot/materials/zerilli_armstrong.h"
 
 namespace sabot
 {
-/** Hypoelastic with the Jaumann rate; pressure -K ln J. */
+/** Hypoelastic deviator. */
 class Elastic : public ElasticBase
 {
 public:
   using ElasticBase::ElasticBase;
-  std::vector<StateVariable> state_variables() const override { return {}; }
-  void update(const MaterialBatch &batch) const override;
+
+protected:
+  void update_deviator(const MaterialBatch &batch,
+                       Scratch &scratch) const override;
 };
 
-/** J2 plasticity with linear mixed hardening. */
+/** J2 plasticity with mixed hardening. */
 struct HardeningParameters
 {
   double yield_stress = 0.;       // [Pa]
   double hardening_modulus = 0.;  // d sigma_y / d eps_p [Pa]
   double isotropic_fraction = 1.; // 1: isotropic, 0: kinematic
+  /** When not empty, stress in monotonic loading against effective plastic
+      strain, in place of yield stress and modulus; constant beyond its end. */
+  std::vector<double> table_strain = {}, table_stress = {};
 };
 
 /**
  * Radial return in closed form (Simo & Hughes 1998, box 3.2): with
- * xi = s - alpha, f = q(xi) - sigma_y(eps), d_eps = f / (3 G + H),
- * d_alpha = (1 - beta) 2/3 H d_eps * 3/2 xi/q.
+ * xi = s - alpha, the hardening curve Y(eps) in monotonic loading and the
+ * isotropic fraction beta,
+ *
+ *   q(xi) - 3 G d - (1 - beta)(Y(eps + d) - Y(eps))
+ *         = Y(0) + beta (Y(eps + d) - Y(0)),
+ *   d_alpha = (1 - beta)(Y(eps + d) - Y(eps)) xi/q.
+ *
+ * Y is a line or piecewise linear; the return walks through its pieces.
  */
 class HardeningPlasticity : public ElasticBase
 {
 public:
   HardeningPlasticity(const ElasticConstants &elastic,
-                      const HardeningParameters &parameters)
-      : ElasticBase(elastic), parameters(parameters)
-  {
-  }
-  std::vector<StateVariable> state_variables() const override;
-  void update(const MaterialBatch &batch) const override;
+                      const HardeningParameters &parameters,
+                      const Eos &eos = {});
+
+protected:
+  std::vector<StateVariable> law_variables() const override;
+  void update_deviator(const MaterialBatch &batch,
+                       Scratch &scratch) const override;
 
 private:
-  const HardeningParameters parameters;
-};
-
-/** Johnson & Cook 1983. */
-struct JohnsonCookParameters
-{
-  double A = 0., B = 0.; // [Pa]
-  double n = 1., C = 0., m = 1.;
-  double reference_strain_rate = 1.; // [1/s]
-  double room_temperature = 294.;    // [K]
-  double initial_temperature = 294.; // [K]
-  double melt_temperature = 1000.;   // [K]
-  double specific_heat = 1000.;      // [J/kg/K]
-  double taylor_quinney = 0.9;       // 0 switches adiabatic heating off
+  struct Piece
+  {
+    double strain, stress, slope; // at the start of the piece
+  };
+  std::vector<Piece> pieces;
+  const double isotropic_fraction;
 };
 
 /**
- * sigma_y = (A + B eps^n)(1 + C ln eps*)(1 - T*^m), eps* = rate/reference >= 1,
- * T* = (T - T_room)/(T_melt - T_room) in [0, 1]. Implicit in strain and rate
- * (safeguarded Newton on yielding points), explicit in temperature; adiabatic
- * heating dT = eta sigma_eq d_eps / (rho c_p) with the initial density.
+ * Compressible neo-Hookean (Simo & Pister 1984): deviator of the Cauchy stress
+ * G J^(-5/3) dev(F F^T), from U = G/2 (J^(-2/3) tr F F^T - 3); with the
+ * pressure -K ln J of the bulk modulus U has the volumetric part
+ * K (J ln J - J + 1). Path-independent.
  */
-class JohnsonCook : public ElasticBase
+class NeoHookean : public ElasticBase
 {
 public:
-  JohnsonCook(const ElasticConstants &elastic,
-              const JohnsonCookParameters &parameters)
-      : ElasticBase(elastic), parameters(parameters)
-  {
-  }
-  std::vector<StateVariable> state_variables() const override;
-  void update(const MaterialBatch &batch) const override;
-  /** Flow stress [Pa]; the slope with eps is returned through @p slope. */
-  double flow_stress(const double eps, const double rate, const double thermal,
-                     const double dt, double &slope) const;
-  /** 1 - T*^m. */
-  double thermal_factor(const double temperature) const;
+  using ElasticBase::ElasticBase;
+  bool needs_deformation_gradient() const override { return true; }
+  bool stiffens() const override { return true; }
 
-private:
-  double plastic_increment(const double q, const double eps,
-                           const double thermal, const double dt) const;
-  const JohnsonCookParameters parameters;
+protected:
+  void update_deviator(const MaterialBatch &batch,
+                       Scratch &scratch) const override;
+  void after_pressure(const MaterialBatch &batch,
+                      const Scratch &scratch) const override;
 };
 } // namespace sabot
 

@@ -16,6 +16,9 @@ namespace sabot
 /** Order of symmetric tensors everywhere: xx, yy, zz, xy, yz, xz. */
 constexpr int n_symmetric = 6;
 
+/** Bodies hand over at most this many points at a time. */
+constexpr std::size_t max_batch_points = 64;
+
 /**
  * Views of @p n material points, quadrature points or particles alike, as
  * structure of arrays. Tensors are already rotated by the increment of
@@ -39,6 +42,15 @@ struct MaterialBatch
   double *return_factor;
   /** out: plastic work of the step per current volume [J/m^3] */
   double *plastic_work;
+
+  // What only some laws need (see Material::needs_...); null otherwise.
+  /** Mean of the artificial viscous pressure over the step [Pa]. */
+  const double *viscous_pressure = nullptr;
+  /** F, new, entry 3 i + j = dx_i/dX_j. */
+  const double *deformation_gradient[9] = {};
+  /** out: dilatational modulus K + 4/3 G of the current state over the one at
+      rest, for the stable step. */
+  double *stiffening = nullptr;
 };
 
 /** A state variable of a material. */
@@ -64,13 +76,35 @@ public:
       convention "effective plastic strain" and "temperature", where a law has
       them, bear these names. */
   virtual std::vector<StateVariable> state_variables() const = 0;
-  /** Radial return and state update; pressure = -K ln(jacobian) unless the
-      law says otherwise. */
+  /** Stress and state at the end of the step; at most max_batch_points. */
   virtual void update(const MaterialBatch &batch) const = 0;
 
-  /** Declare / read the entries of one material; "Model" selects the law.
-      @p path is where they stand, for messages. */
-  static void declare_parameters(dealii::ParameterHandler &prm);
+  /** Of laws with a state "temperature"; 0 elsewhere. */
+  virtual double specific_heat() const { return 0.; } // [J/kg/K]
+  virtual double conductivity() const { return 0.; }  // [W/m/K]
+
+  // Entries of MaterialBatch that a body fills only for laws that need them.
+  virtual bool needs_viscous_pressure() const { return false; }
+  virtual bool needs_deformation_gradient() const { return false; }
+  /** Whether `stiffening` may leave 1. */
+  virtual bool stiffens() const { return false; }
+
+  /** What looks odd in the values, for the log. */
+  std::vector<std::string> warnings;
+
+  /** Declare / read the entries of one material; "Model" selects the law and
+      "Equation of state" the pressure, only their subsections are declared.
+      Names that are empty or unknown declare all, as the manual does. @p path
+      is where they stand, for messages. */
+  static void declare_parameters(dealii::ParameterHandler &prm,
+                                 const std::string &model = "",
+                                 const std::string &equation_of_state = "");
+  /** Throw InputError for the first of @p subsections that @p model and
+      @p equation_of_state do not read. */
+  static void check_subsections(const std::string &path,
+                                const std::vector<std::string> &subsections,
+                                const std::string &model,
+                                const std::string &equation_of_state);
   static std::unique_ptr<Material> make(dealii::ParameterHandler &prm,
                                         const std::string &path);
 };

@@ -3,6 +3,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/integrator/central_difference.h"
+#include "sabot/output/checkpoint.h"
 #include "sabot/output/history.h"
 #include "sabot/output/log.h"
 #include "sabot/output/vtu_writer.h"
@@ -20,7 +21,7 @@ std::string version();
 
 /**
  * Runs a scene to its end and leaves its results in a folder: result.json,
- * history.h5, sabot.pvd with fields/, parameters.prm, log.txt.
+ * history.h5, sabot.pvd with fields/, parameters.prm, log.txt, checkpoint/.
  */
 class Run
 {
@@ -28,8 +29,10 @@ public:
   Run(Scene &scene, const std::string &folder, const bool quiet,
       MPI_Comm communicator);
 
-  /** The whole run; says what the process should return. Collective. */
-  ExitCode execute();
+  /** The whole run, or what is left of it after @p checkpoint (a file of this
+      scene and number of ranks); says what the process should return.
+      Collective. */
+  ExitCode execute(const std::string &checkpoint = "");
 
 private:
   /** Energy balance of the moment, in J. */
@@ -37,7 +40,10 @@ private:
   {
     double total = 0., residual = 0.;
   };
-  void start();
+  void start(const std::string &checkpoint);
+  void open_folder(const bool append);
+  void describe_scene();
+  void set_initial_values();
   void loop();
   double next_step(const StepProposal &proposal) const;
   void record();
@@ -52,6 +58,14 @@ private:
   nlohmann::ordered_json body_results() const;
   nlohmann::ordered_json timer_results() const;
   bool record_due() const;
+  /** Numbers of the run itself: time, step, what is due next, histories. */
+  void visit_state(StateVisitor &visitor);
+  template <typename Visitor>
+  void visit_all(Visitor &visitor);
+  void write_checkpoint(const std::string &name = "");
+  void restore(const std::string &checkpoint);
+  bool checkpoint_due();
+  double elapsed_seconds() const;
 
   Scene &scene;
   const std::string folder;
@@ -75,6 +89,11 @@ private:
   double momentum_scale = 0., largest_momentum_residual = 0.;
   std::chrono::steady_clock::time_point start_time;
   bool interrupted = false;
+  std::unique_ptr<CheckpointFolder> checkpoints;
+  std::string expanded_parameters;
+  double earlier_seconds = 0.; // wall time before the run was resumed
+  double next_checkpoint = 0., next_checkpoint_wall = 0.; // [s]
+  bool within_step = false; // an error now leaves an unfinished step
 };
 } // namespace sabot
 

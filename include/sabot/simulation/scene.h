@@ -50,6 +50,9 @@ struct RunSettings
 {
   std::string title;
   double end_time, step_factor, largest_step, energy_limit;
+  // Between checkpoints, 0: none for this reason.
+  double checkpoint_interval, checkpoint_wall_time; // [s]
+  unsigned int checkpoint_steps;
 };
 
 /**

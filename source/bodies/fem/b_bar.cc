@@ -86,8 +86,7 @@ void BBar::add_forces(NodalState &nodes, const double dt)
     const std::size_t end = std::min(begin + cells_per_batch, n);
     for (std::size_t e = begin; e < end; ++e)
       kinematics(nodes, e, dt);
-    if (dt > 0.)
-      update_stress(8 * begin, 8 * (end - begin), dt, batch);
+    update_points(8 * begin, 8 * (end - begin), dt, batch);
     for (std::size_t e = begin; e < end; ++e)
     {
       Vec force[8];
@@ -225,7 +224,7 @@ void BBar::kinematics(const NodalState &nodes, const std::size_t e,
     }
     step = std::min(step, 0.25 / fastest);
   }
-  note_step(e, step);
+  batch.step[first] = step;
 
   for (int p = 0; p < n_packs; ++p)
   {
@@ -290,9 +289,14 @@ void BBar::cell_forces(const NodalState &, const std::size_t e,
   }
 }
 
+Mat BBar::gradient(const std::size_t point) const
+{
+  return lane_of(motion[point / 8].F[point % 8 / n_lanes], point % n_lanes);
+}
+
 void BBar::visit_state(StateVisitor &visitor)
 {
-  visitor.visit("motion", motion.data(), motion.size(), sizeof(Motion));
+  visitor.visit_array("motion", motion);
   Hexahedra::visit_state(visitor);
 }
 } // namespace sabot

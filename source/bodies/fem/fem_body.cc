@@ -21,6 +21,18 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Hourglass coefficient", "0.1",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Usually 0.03 to 0.15.");
+  prm.declare_entry("Heat conduction", "false", dealii::Patterns::Bool(),
+                    "Implicit conduction inside the body, faces insulated. "
+                    "Needs a law with temperature and conductivity.");
+  prm.declare_entry("Conduction interval", "1 us",
+                    QuantityPattern(Dimension::time, 0., 1e3),
+                    "Time between conduction steps.");
+  prm.declare_entry(
+      "Objective rate", "Jaumann",
+      dealii::Patterns::Selection("Jaumann|Green-Naghdi"),
+      "Rate of the stress: with the spin of the velocity gradient, or with "
+      "that of the rotation R of F = R U, which does not oscillate in large "
+      "elastic shear.");
   prm.declare_entry("Linear bulk viscosity", "0.06",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
@@ -54,6 +66,11 @@ FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
   o.hourglass = prm.get("Hourglass control") == "viscous"
                     ? Hourglass::viscous
                     : Hourglass::stiffness;
+  o.conducts_heat = prm.get_bool("Heat conduction");
+  o.conduction_interval = get_quantity(prm, "Conduction interval");
+  o.objective_rate = prm.get("Objective rate") == "Jaumann"
+                         ? ObjectiveRate::jaumann
+                         : ObjectiveRate::green_naghdi;
   o.hourglass_coefficient = get_quantity(prm, "Hourglass coefficient");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
@@ -79,10 +96,7 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
   const auto need = [&](const double limit, const std::string &variable,
                         const std::string &entry)
   {
-    bool known = false;
-    for (const StateVariable &v : cells->states())
-      known = known || v.name == variable;
-    if (limit < FemOptions::never && !known)
+    if (limit < FemOptions::never && !has_state(variable))
       throw InputError("Bodies/" + name + "/" + entry,
                        "the body's material has no " + variable +
                            "; use a law that has it or remove the entry");
@@ -90,6 +104,16 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
   need(options.erosion_plastic_strain, "effective plastic strain",
        "Erosion plastic strain");
   need(options.erosion_damage, "damage", "Erosion damage");
+  if (options.conducts_heat && !(this->material->conductivity() > 0.))
+    throw InputError("Bodies/" + name + "/Heat conduction",
+                     "the body's material has no temperature or no thermal "
+                     "conductivity; set \"Thermal conductivity\" of a law "
+                     "with temperature, for example 167 W/m/K");
+  if (options.conducts_heat && options.erodes())
+    throw InputError("Bodies/" + name + "/Heat conduction",
+                     "heat is conducted in all cells of a body or in none, so "
+                     "cells must not erode; remove the erosion criteria (and "
+                     "\"Inversion = erode\") or the conduction");
 }
 
 void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -168,6 +192,43 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   if (options.erodes())
     set_up_erosion();
   mesh = HexMesh();
+  if (options.conducts_heat)
+  {
+    std::vector<double> capacity = cells->volume;
+    for (double &c : capacity)
+      c *= material->density() * material->specific_heat();
+    heat = std::make_unique<HeatConduction>(material->conductivity(),
+                                            cells->connectivity, capacity,
+                                            nodal_state, node_exchange,
+                                            communicator);
+  }
+}
+
+void FemBody::conduct_heat(const double time)
+{
+  // Ghost positions are those of the last force computation: now.
+  const std::vector<double> before = cells->cell_state("temperature");
+  std::vector<double> change = before;
+  heat->advance(nodal_state, time - last_conduction, change.data());
+  for (std::size_t e = 0; e < change.size(); ++e)
+    change[e] -= before[e];
+  cells->shift_state("temperature", change);
+  last_conduction = time;
+}
+
+void FemBody::update_topology(const unsigned int, const double time)
+{
+  if (heat && time >= last_conduction + options.conduction_interval)
+    conduct_heat(time);
+  if (erosion)
+    erode_cells();
+}
+
+bool FemBody::has_state(const std::string &variable) const
+{
+  const auto &states = cells->states();
+  return std::any_of(states.begin(), states.end(), [&](const StateVariable &v)
+                     { return v.name == variable; });
 }
 
 void FemBody::impose_velocities(const double)
@@ -239,10 +300,8 @@ Measures FemBody::measure() const
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"hourglass energy", "J", hourglass.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
-  bool heats = false;
-  for (const StateVariable &v : cells->states())
-    heats = heats || v.name == "temperature";
-  if (heats)
+  // Not from the array, which a rank without cells does not have.
+  if (has_state("temperature"))
     measures.push_back({"temperature max", "K", top[1]});
   if (erosion)
     add_erosion_measures(measures);
@@ -287,35 +346,18 @@ OutputMesh FemBody::output_mesh() const
 
 void FemBody::visit_state(StateVisitor &visitor)
 {
-  const auto visit = [&](const std::string &array, auto &data)
-  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
-  visit("position", nodal_state.position);
-  visit("velocity", nodal_state.velocity);
-  visit("force", nodal_state.force);
-  visit("inertia", nodal_state.inertia);
+  visitor.visit_array("position", nodal_state.position);
+  visitor.visit_array("velocity", nodal_state.velocity);
+  visitor.visit_array("force", nodal_state.force);
+  visitor.visit_array("inertia", nodal_state.inertia);
   if (erosion)
-  {
-    // A reader must know which cells are left before it fills their arrays.
-    visit("alive cells", erosion->alive);
-    if (std::count(erosion->alive.begin(), erosion->alive.end(), 1) !=
-        std::ptrdiff_t(n_local_cells()))
-    {
-      std::vector<std::uint32_t> dead;
-      for (const std::uint32_t cell : erosion->initial)
-        if (!erosion->alive[cell])
-          dead.push_back(cell);
-      update_boundary(dead);
-      compact();
-    }
-    visitor.visit("eroded mass", &erosion->mass, 1, sizeof(ExactSum));
-    visitor.visit("eroded energy", &erosion->energy, 1, sizeof(ExactSum));
-    visitor.visit("eroded plastic work", &erosion->plastic_work, 1,
-                  sizeof(ExactSum));
-    visitor.visit("eroded cells", &erosion->n_cells, 1, sizeof(ExactSum));
-    visitor.visit("surface version", &surface_version, 1,
-                  sizeof(surface_version));
-  }
+    visit_erosion(visitor);
   cells->visit_state(visitor);
-  visitor.visit("external work", &constraints.work(), 1, sizeof(ExactSum));
+  if (heat)
+  {
+    heat->visit_state(visitor);
+    visitor.visit_value("last conduction", last_conduction);
+  }
+  visitor.visit_value("external work", constraints.work());
 }
 } // namespace sabot

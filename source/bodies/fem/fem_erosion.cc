@@ -94,10 +94,8 @@ std::vector<std::size_t> FemBody::cells_to_erode() const
   return found;
 }
 
-void FemBody::update_topology(const unsigned int, const double)
+void FemBody::erode_cells()
 {
-  if (!erosion)
-    return;
   const std::vector<std::size_t> found = cells_to_erode();
   cells->inverting.clear();
   // All ranks must search their contacts anew.
@@ -184,6 +182,31 @@ void FemBody::compact()
   owned_cell.resize(kept.size());
   er.initial.resize(kept.size());
   cells->keep(kept);
+}
+
+void FemBody::visit_erosion(StateVisitor &visitor)
+{
+  Erosion &er = *erosion;
+  // A reader must know which cells are left before it fills their arrays.
+  visitor.visit_array("alive cells", er.alive);
+  if (visitor.is_restoring())
+  {
+    std::vector<std::uint32_t> dead;
+    for (const std::uint32_t cell : er.initial)
+      if (!er.alive[cell])
+        dead.push_back(cell);
+    update_boundary(dead);
+    compact();
+  }
+  // In the order in which cells died.
+  visitor.visit_resized("boundary faces", boundary_faces);
+  visitor.visit_resized("boundary face ids", boundary_face_id);
+  visitor.visit_resized("cells of boundary faces", er.face_cell);
+  visitor.visit_value("eroded mass", er.mass);
+  visitor.visit_value("eroded energy", er.energy);
+  visitor.visit_value("eroded plastic work", er.plastic_work);
+  visitor.visit_value("eroded cells", er.n_cells);
+  visitor.visit_value("surface version", surface_version);
 }
 
 void FemBody::add_erosion_measures(Measures &measures) const

@@ -4,14 +4,17 @@
 #include "sabot/bodies/body_report.h"
 #include "sabot/bodies/fem/b_bar.h"
 #include "sabot/bodies/fem/one_point.h"
+#include "sabot/kernels/polar.h"
 #include "sabot/kernels/stress_update.h"
+
+#include <cmath>
 
 namespace sabot
 {
 namespace
 {
 /** Hexahedra have no stress beside the stress. */
-const double no_extra[64] = {};
+const double no_extra[max_batch_points] = {};
 /** Arrays of points end on a cache line. */
 constexpr std::size_t padding = 8;
 } // namespace
@@ -47,6 +50,8 @@ void Hexahedra::allocate_points()
   viscous_pressure.assign(stride, 0.);
   point_energy.assign(stride, 0.);
   point_plastic_work.assign(stride, 0.);
+  if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
+    polar_rotation.assign(stride, Mat::identity());
   hourglass_energy.assign(round_up(size(), padding), 0.);
   if (options.erosion_step > 0.)
     cell_step.assign(size(), std::numeric_limits<double>::max());
@@ -90,6 +95,68 @@ void Hexahedra::keep_points(const std::vector<std::size_t> &kept)
   points(viscous_pressure);
   points(point_energy);
   points(point_plastic_work);
+  if (!polar_rotation.empty())
+  {
+    for (std::size_t e = 0; e < kept.size(); ++e)
+      for (std::size_t q = 0; q < n_points; ++q)
+        polar_rotation[e * n_points + q] =
+            polar_rotation[kept[e] * n_points + q];
+    polar_rotation.resize(stride);
+    if (n > 0)
+      std::fill(polar_rotation.begin() + n, polar_rotation.end(),
+                polar_rotation[n - 1]);
+  }
+}
+
+void Hexahedra::polar_spin(const std::size_t begin, const std::size_t m,
+                           PointBatch &batch)
+{
+  for (std::size_t k = 0; k < m; ++k)
+  {
+    const Mat R = rotation_of(gradient(begin + k));
+    double spin[3];
+    cayley_spin(R * transpose(polar_rotation[begin + k]), spin);
+    for (int c = 0; c < 3; ++c)
+      batch.spin[c][k] = spin[c];
+    polar_rotation[begin + k] = R;
+  }
+}
+
+void Hexahedra::set_deformation_gradient(const std::size_t begin,
+                                         const std::size_t m,
+                                         PointBatch &batch) const
+{
+  for (std::size_t k = 0; k < m; ++k)
+  {
+    Mat F = gradient(begin + k);
+    // Points that share the mean volume ratio of their cell (F-bar, de Souza
+    // Neto et al. 1996).
+    if (n_points > 1)
+      F = std::cbrt(batch.jacobian[k] / determinant(F)) * F;
+    for (int c = 0; c < 9; ++c)
+      batch.deformation_gradient[c][k] = F(c / 3, c % 3);
+  }
+}
+
+void Hexahedra::update_points(const std::size_t begin, const std::size_t m,
+                              const double dt, PointBatch &batch)
+{
+  if (!polar_rotation.empty())
+    polar_spin(begin, m, batch);
+  if (dt > 0.)
+    update_stress(begin, m, dt, batch);
+  const bool stiffens = dt > 0. && material->stiffens();
+  const std::size_t end = std::min(begin + m, size() * n_points);
+  for (std::size_t point = begin; point < end; point += n_points)
+  {
+    const std::size_t k = point - begin;
+    double step = batch.step[k];
+    if (stiffens)
+      step /= std::sqrt(std::max(
+          1., *std::max_element(&batch.stiffening[k],
+                                &batch.stiffening[k] + n_points)));
+    note_step(point / n_points, step);
+  }
 }
 
 void Hexahedra::update_stress(const std::size_t begin, const std::size_t m,
@@ -128,6 +195,21 @@ void Hexahedra::update_stress(const std::size_t begin, const std::size_t m,
   points.extra_square = no_extra;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
+  if (material->needs_viscous_pressure())
+  {
+    for (std::size_t k = 0; k < m; ++k)
+      batch.mean_viscous_pressure[k] =
+          0.5 * (viscous_pressure[begin + k] + batch.viscous_pressure[k]);
+    points.viscous_pressure = batch.mean_viscous_pressure;
+  }
+  if (material->needs_deformation_gradient())
+  {
+    set_deformation_gradient(begin, m, batch);
+    for (int c = 0; c < 9; ++c)
+      points.deformation_gradient[c] = batch.deformation_gradient[c];
+  }
+  if (material->stiffens())
+    points.stiffening = batch.stiffening;
   material->update(points);
   half_work(m, now, strain, batch.half_volume, &point_energy[begin]);
   double *const energy = &point_energy[begin],
@@ -205,40 +287,52 @@ Hexahedra::cell_means(const AlignedVector<double> &rows) const
   return means;
 }
 
-std::vector<double> Hexahedra::cell_state(const std::string &name) const
+std::size_t Hexahedra::state_row(const std::string &name) const
 {
   std::size_t row = 0;
   for (const StateVariable &variable : state_variables)
   {
     if (variable.name == name)
-    {
-      std::vector<double> values(size());
-      for (std::size_t e = 0; e < size(); ++e)
-      {
-        double sum = 0.;
-        for (std::size_t q = e * n_points; q < (e + 1) * n_points; ++q)
-          sum += state_data[row * stride + q];
-        values[e] = sum / n_points;
-      }
-      return values;
-    }
+      return row;
     row += variable.is_tensor ? n_symmetric : 1;
   }
-  return {};
+  return n_states;
+}
+
+std::vector<double> Hexahedra::cell_state(const std::string &name) const
+{
+  const std::size_t row = state_row(name);
+  if (row == n_states)
+    return {};
+  std::vector<double> values(size());
+  for (std::size_t e = 0; e < size(); ++e)
+  {
+    double sum = 0.;
+    for (std::size_t q = e * n_points; q < (e + 1) * n_points; ++q)
+      sum += state_data[row * stride + q];
+    values[e] = sum / n_points;
+  }
+  return values;
+}
+
+void Hexahedra::shift_state(const std::string &name,
+                            const std::vector<double> &change)
+{
+  const std::size_t first = state_row(name) * stride;
+  for (std::size_t q = 0; q < size() * n_points; ++q)
+    state_data[first + q] += change[q / n_points];
 }
 
 void Hexahedra::visit_state(StateVisitor &visitor)
 {
-  const auto visit = [&](const std::string &name, auto &data)
-  { visitor.visit(name, data.data(), data.size(), sizeof(data[0])); };
-  visit("viscous pressure", viscous_pressure);
-  visit("stress", stress_data);
-  visit("state", state_data);
-  visit("internal energy", point_energy);
-  visit("hourglass energy", hourglass_energy);
-  visit("plastic work", point_plastic_work);
-  visitor.visit("stable step", &smallest_step.dt, 1, sizeof(double));
-  visitor.visit("stable step item", &smallest_step.item, 1,
-                sizeof(GlobalIndex));
+  visitor.visit_array("viscous pressure", viscous_pressure);
+  visitor.visit_array("stress", stress_data);
+  visitor.visit_array("state", state_data);
+  visitor.visit_array("polar rotation", polar_rotation);
+  visitor.visit_array("internal energy", point_energy);
+  visitor.visit_array("hourglass energy", hourglass_energy);
+  visitor.visit_array("plastic work", point_plastic_work);
+  visitor.visit_value("stable step", smallest_step.dt);
+  visitor.visit_value("stable step item", smallest_step.item);
 }
 } // namespace sabot

@@ -151,8 +151,7 @@ void OnePoint::compute(NodalState &nodes, const double dt)
                       first = begin / n_lanes, last = first + m / n_lanes;
     for (std::size_t pack = first; pack < last; ++pack)
       kinematics<viscous>(nodes, pack, dt);
-    if (dt > 0.)
-      update_stress(begin, m, dt, batch);
+    update_points(begin, m, dt, batch);
     for (std::size_t pack = first; pack < last; ++pack)
       scatter(nodes, pack);
   }
@@ -348,9 +347,7 @@ void OnePoint::kinematics(const NodalState &nodes, const std::size_t pack,
       }
     store_pack(&hourglass_energy[pack * n_lanes], 0.5 * work);
   }
-  for (std::size_t lane = 0; lane < n_lanes; ++lane)
-    if (pack * n_lanes + lane < size())
-      note_step(pack * n_lanes + lane, step[lane]);
+  store_pack(&batch.step[k], step);
 }
 
 void OnePoint::scatter(NodalState &nodes, const std::size_t pack)
@@ -394,9 +391,7 @@ void OnePoint::cell_forces(const NodalState &nodes, const std::size_t e,
   const std::size_t lane = e % n_lanes;
   const auto mode_of = [&](const int k)
   { return vec(m.mode[k][0][lane], m.mode[k][1][lane], m.mode[k][2][lane]); };
-  Mat F = Mat::zero();
-  for (int i = 0; i < 3; ++i)
-    F.row[i] = vec(m.F.m[i][0][lane], m.F.m[i][1][lane], m.F.m[i][2][lane]);
+  const Mat F = gradient(e);
   double J;
   const Mat F_inverse = inverse(F, J);
   Mat P = (volume[e] * J) * (total_stress(e) * transpose(F_inverse));
@@ -426,9 +421,14 @@ void OnePoint::cell_forces(const NodalState &nodes, const std::size_t e,
                  force[a]);
 }
 
+Mat OnePoint::gradient(const std::size_t e) const
+{
+  return lane_of(motion[e / n_lanes].F, e % n_lanes);
+}
+
 void OnePoint::visit_state(StateVisitor &visitor)
 {
-  visitor.visit("motion", motion.data(), motion.size(), sizeof(Motion));
+  visitor.visit_array("motion", motion);
   Hexahedra::visit_state(visitor);
 }
 } // namespace sabot

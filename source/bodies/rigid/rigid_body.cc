@@ -319,17 +319,16 @@ OutputMesh RigidBody::output_mesh() const
 
 void RigidBody::visit_state(StateVisitor &visitor)
 {
-  const auto visit = [&](const std::string &array, auto &data)
-  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
-  visit("position", nodal_state.position);
-  visit("velocity", nodal_state.velocity);
-  visit("force", nodal_state.force);
-  visit("rigid velocity", rigid_velocity);
-  visit("quaternion", quaternion);
-  visitor.visit("centre", &centre, 1, sizeof(Vec));
-  visitor.visit("momentum", &momentum, 1, sizeof(Vec));
-  visitor.visit("angular momentum", &angular_momentum, 1, sizeof(Vec));
-  visitor.visit("external work", &work, 1, sizeof(ExactSum));
+  visitor.visit_array("position", nodal_state.position);
+  visitor.visit_array("velocity", nodal_state.velocity);
+  visitor.visit_array("force", nodal_state.force);
+  visitor.visit_array("inertia", nodal_state.inertia);
+  visitor.visit_array("rigid velocity", rigid_velocity);
+  visitor.visit_array("quaternion", quaternion);
+  visitor.visit_value("centre", centre);
+  visitor.visit_value("momentum", momentum);
+  visitor.visit_value("angular momentum", angular_momentum);
+  visitor.visit_value("external work", work);
 }
 
 ContactSurface RigidBody::contact_surface() const

@@ -7,10 +7,11 @@
 
 namespace sabot
 {
-std::vector<GlobalIndex>
-BondList::build(const std::vector<std::array<double, 3>> &points,
-                const std::array<double, 3> &spacing, const double support,
-                const std::vector<GlobalIndex> &owned_ids)
+BondList::Rows
+BondList::rows_within(const std::vector<std::array<double, 3>> &points,
+                      const std::array<double, 3> &spacing,
+                      const double support, const bool cubic,
+                      const std::vector<GlobalIndex> &owned_ids)
 {
   // Buckets of one support, in scaled coordinates.
   const std::size_t n = points.size();
@@ -41,8 +42,7 @@ BondList::build(const std::vector<std::array<double, 3>> &points,
 
   // A neighbour exactly at the support's edge has no weight.
   const double reach = support * (1. - 1e-9);
-  row_ids.assign(owned_ids.size(), {});
-  std::vector<GlobalIndex> ghosts;
+  Rows row_ids(owned_ids.size());
   for (std::size_t row = 0; row < owned_ids.size(); ++row)
   {
     const GlobalIndex i = owned_ids[row];
@@ -61,58 +61,77 @@ BondList::build(const std::vector<std::array<double, 3>> &points,
           {
             if (j == i)
               continue;
-            double r2 = 0.;
+            double r2 = 0., largest = 0.;
             for (int d = 0; d < 3; ++d)
             {
               const double s = (points[j][d] - points[i][d]) / spacing[d];
               r2 += s * s;
+              largest = std::max(largest, s * s);
             }
             if (r2 < 1e-12)
               throw std::invalid_argument(
                   "particles " + std::to_string(std::min(i, j)) + " and " +
                   std::to_string(std::max(i, j)) + " coincide");
-            if (r2 < reach * reach)
+            if ((cubic ? largest : r2) < reach * reach)
               row_ids[row].push_back(j);
           }
     std::sort(row_ids[row].begin(), row_ids[row].end());
-    for (const GlobalIndex j : row_ids[row])
+  }
+  return row_ids;
+}
+
+std::vector<GlobalIndex>
+BondList::ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids)
+{
+  std::vector<GlobalIndex> ghosts;
+  for (const auto &row : rows)
+    for (const GlobalIndex j : row)
       if (!std::binary_search(owned_ids.begin(), owned_ids.end(), j))
         ghosts.push_back(j);
-  }
   std::sort(ghosts.begin(), ghosts.end());
   ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
   return ghosts;
 }
 
-void BondList::connect(const std::vector<GlobalIndex> &global_id,
+void BondList::connect(const Rows &rows,
+                       const std::vector<GlobalIndex> &global_id,
                        const std::vector<int> &ghost_owner,
                        const GlobalIndex n_global, MPI_Comm comm)
 {
+  std::unordered_map<GlobalIndex, std::uint32_t> local;
+  local.reserve(global_id.size());
+  for (std::size_t i = 0; i < global_id.size(); ++i)
+    local[global_id[i]] = i;
+
+  std::vector<std::size_t> new_start(1, 0);
+  std::vector<std::uint32_t> new_count, new_neighbor;
+  AlignedVector<StoredVec> new_residual;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    // Both the old and the new row ascend.
+    std::size_t old = n_owned > 0 ? begin(i) : 0;
+    const std::size_t last = n_owned > 0 ? end(i) : 0;
+    for (const GlobalIndex j : rows[i])
+    {
+      while (old < last && id[neighbor[old]] < j)
+        ++old;
+      const bool kept = old < last && id[neighbor[old]] == j;
+      new_residual.push_back(kept ? residual[old] : StoredVec{});
+      new_neighbor.push_back(local.at(j));
+    }
+    new_start.push_back(new_neighbor.size());
+    new_count.push_back(rows[i].size());
+  }
   communicator = comm;
   id = global_id;
   owner_of_ghost = ghost_owner;
   n_total = n_global;
-  n_owned = row_ids.size();
-  std::unordered_map<GlobalIndex, std::uint32_t> local;
-  local.reserve(id.size());
-  for (std::size_t i = 0; i < id.size(); ++i)
-    local[id[i]] = i;
-
-  row_start.assign(1, 0);
-  count.clear();
-  neighbor.clear();
-  for (const auto &row : row_ids)
-  {
-    for (const GlobalIndex j : row)
-      neighbor.push_back(local.at(j));
-    row_start.push_back(neighbor.size());
-    count.push_back(row.size());
-  }
-  row_ids.clear();
-  row_ids.shrink_to_fit();
+  n_owned = rows.size();
+  row_start.swap(new_start);
+  count.swap(new_count);
+  neighbor.swap(new_neighbor);
+  residual.swap(new_residual);
   weight.assign(neighbor.size(), 0.);
-  rest.assign(neighbor.size(), Vec{});
-  force.assign(neighbor.size(), Vec{});
   reconnect();
 }
 
@@ -151,7 +170,7 @@ void BondList::reconnect()
                           id.begin(), id.begin() + n_owned, key / n_total);
                       return find(i - id.begin(), key % n_total);
                     });
-  force.resize(neighbor.size() + owners.size());
+  residual.resize(neighbor.size() + owners.size());
 }
 
 std::size_t BondList::remove(const std::vector<char> &dead)
@@ -174,8 +193,7 @@ std::size_t BondList::remove(const std::vector<char> &dead)
         neighbor[to] = neighbor[from];
         reverse[to] = reverse[from];
         weight[to] = weight[from];
-        rest[to] = rest[from];
-        force[to] = force[from];
+        residual[to] = residual[from];
         if (neighbor[to] < n_owned)
           reverse[reverse[to]] = to;
         else

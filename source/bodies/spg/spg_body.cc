@@ -1,7 +1,6 @@
 #include "sabot/bodies/spg/spg_body.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
 #include "sabot/bodies/body_report.h"
 
 #include <algorithm>
@@ -9,56 +8,6 @@
 
 namespace sabot
 {
-void SpgOptions::declare_parameters(dealii::ParameterHandler &prm)
-{
-  const SpgOptions d;
-  using dealii::Patterns::Double;
-  using dealii::Patterns::Integer;
-  prm.declare_entry("Normalised support size", "2.0",
-                    QuantityPattern(Dimension::none, 1.8, 2.8),
-                    "Kernel radius over nodal spacing.");
-  prm.declare_entry("Stabilisation coefficient", "4",
-                    QuantityPattern(Dimension::none, 0., 20.),
-                    "Stiffness of the bond residual in shear moduli; 3 to 5 "
-                    "give the same answers, 0 switches it off.");
-  prm.declare_entry("Kernel update interval", "30", Integer(1),
-                    "Steps between updates of the Lagrangian kernel; an "
-                    "update is also made when a volume changes by 60 %.");
-  prm.declare_entry("Failure check interval", "5", Integer(1),
-                    "Steps between checks of the bonds; where any fails, the "
-                    "kernel is updated at once.");
-  prm.declare_entry("Critical effective plastic strain", "1e10",
-                    QuantityPattern(Dimension::none, 0.),
-                    "A bond fails for ever when the mean effective plastic "
-                    "strain of its ends exceeds this and its stretch exceeds "
-                    "the critical stretch. 1e10: bonds never fail.");
-  prm.declare_entry("Critical stretch", "1",
-                    QuantityPattern(Dimension::none, 1., 10.),
-                    "Distance over original distance above which a bond may "
-                    "fail; at least 1, so that none fails in compression.");
-  prm.declare_entry("Linear bulk viscosity", "0.06",
-                    QuantityPattern(Dimension::none, 0., 1.),
-                    "Coefficient of rho c h |div v| in compression.");
-  prm.declare_entry("Quadratic bulk viscosity", "1.5",
-                    QuantityPattern(Dimension::none, 0., 10.),
-                    "Coefficient of rho h^2 (div v)^2 in compression.");
-}
-
-SpgOptions SpgOptions::parse(const dealii::ParameterHandler &prm)
-{
-  SpgOptions o;
-  o.normalized_support = get_quantity(prm, "Normalised support size");
-  o.stabilization_coefficient = get_quantity(prm, "Stabilisation coefficient");
-  o.kernel_update_interval = prm.get_integer("Kernel update interval");
-  o.failure_check_interval = prm.get_integer("Failure check interval");
-  o.critical_effective_plastic_strain =
-      get_quantity(prm, "Critical effective plastic strain");
-  o.critical_stretch = get_quantity(prm, "Critical stretch");
-  o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
-  o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
-  return o;
-}
-
 SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                  std::shared_ptr<const Material> material,
                  const SpgOptions &options)
@@ -69,10 +18,11 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       state_variables(this->material->state_variables())
 {
   n_states = count_states(state_variables);
-  bool fails = options.critical_effective_plastic_strain < 1e10, known = false;
+  bool known = options.failure_criterion !=
+               SpgOptions::FailureCriterion::effective_plastic_strain;
   for (const StateVariable &variable : state_variables)
     known = known || variable.name == "effective plastic strain";
-  if (fails && !known)
+  if (options.can_fail() && !known)
     throw InputError("Bodies/" + name + "/Critical effective plastic strain",
                      "the body's material has no effective plastic strain; "
                      "use a law with plasticity or remove the entry");
@@ -88,32 +38,25 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     if (owner[i] == rank)
       ids.push_back(i);
   const std::size_t n = ids.size();
-  std::vector<GlobalIndex> ghosts;
+  BondList::Rows rows;
   try
   {
-    ghosts = bonds.build(cloud.position, cloud.spacing,
-                         options.normalized_support, ids);
+    rows = BondList::rows_within(
+        cloud.position, cloud.spacing, options.normalized_support,
+        options.kernel_shape == SpgOptions::KernelShape::tensor, ids);
   }
   catch (const std::invalid_argument &e)
   {
     throw InputError("Bodies/" + name, e.what());
   }
-  std::vector<int> ghost_owner;
-  for (const GlobalIndex g : ghosts)
-    ghost_owner.push_back(owner[g]);
-  node_exchange = GhostExchange(
-      communicator, n, ghost_owner, ghosts,
-      [&](const GlobalIndex key)
-      { return std::lower_bound(ids.begin(), ids.end(), key) - ids.begin(); });
-
-  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
-  nodal_state.resize(ids.size());
+  rank_of = owner;
+  nodal_state.resize(n);
   nodal_state.n_owned = n;
   nodal_state.global_id = ids;
   on_face.resize(n);
   reference_volume.resize(n);
   const auto &v = options.initial_velocity;
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  for (std::size_t i = 0; i < n; ++i)
   {
     const auto &p = cloud.position[ids[i]];
     const double volume = cloud.volume[ids[i]];
@@ -123,29 +66,32 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     nodal_state.force[i] = Vec{};
     nodal_state.lumped_mass[i] = nodal_state.inertia[i] =
         material->density() * volume;
-    if (i < n)
-    {
-      on_face[i] = cloud.on_face[ids[i]];
-      reference_volume[i] = volume;
-      for (int face = 0; face < 6; ++face)
-        if (on_face[i] & options.symmetry_faces & 1 << face)
-          constraints.prescribe(i, face / 2, 0.);
-    }
+    on_face[i] = cloud.on_face[ids[i]];
+    reference_volume[i] = volume;
+    for (int face = 0; face < 6; ++face)
+      if (on_face[i] & options.symmetry_faces & 1 << face)
+        constraints.prescribe(i, face / 2, 0.);
   }
   constraints.finish();
-  bonds.connect(ids, ghost_owner, n_global, communicator);
+  renumber(rows);
   cloud = ParticleCloud();
 
   kernel_volume = reference_volume;
-  generalized_stress.assign(ids.size(), Mat::zero());
-  kernel.resize(ids.size());
-  plastic_strain_copy.assign(ids.size(), 0.);
   gradient.assign(n, Mat::identity());
   total_gradient.assign(n, Mat::identity());
   moment_inverse.resize(n);
   bond_stiffness.resize(n);
   weak.resize(n);
-  has_failed_bond.assign(n, 0);
+  residual_factor.assign(n, 1.);
+  n_failed.assign(n, 0);
+  if (options.neighbor_policy == SpgOptions::NeighborPolicy::search)
+    failed_pairs.resize(n);
+  if (options.stabilization == Stabilization::second_gradient)
+  {
+    second_gradient = std::make_unique<SecondGradient>(
+        material->bulk_modulus(), material->shear_modulus(), n);
+    second_gradient->generalized_stress.resize(nodal_state.size());
+  }
   stress_data.assign(6 * n, 0.);
   state_data.resize(n_states * n);
   std::size_t s = 0;
@@ -154,18 +100,56 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
       std::fill_n(&state_data[s * n], n, variable.initial_value);
   batch_states.resize(n_states);
   viscous_pressure.assign(n, 0.);
+  if (material->stiffens())
+    stiffening.assign(n, 1.);
   internal_energy.assign(n, 0.);
   bond_work.assign(n, 0.);
-  force_on_residual.assign(n, 0.);
   plastic_work.assign(n, 0.);
   update_stable_step.resize(n);
   std::fill(std::begin(batch.return_factor), std::end(batch.return_factor), 1.);
+  std::fill(std::begin(batch.extra_square), std::end(batch.extra_square), 0.);
   set_up_kernel();
+}
+
+void SpgBody::renumber(const BondList::Rows &rows)
+{
+  const std::size_t n = nodal_state.n_owned;
+  std::vector<GlobalIndex> ids(nodal_state.global_id.begin(),
+                               nodal_state.global_id.begin() + n);
+  const std::vector<GlobalIndex> ghosts = BondList::ghosts_of(rows, ids);
+  std::vector<int> ghost_owner;
+  for (const GlobalIndex g : ghosts)
+    ghost_owner.push_back(rank_of[g]);
+  node_exchange = GhostExchange(
+      communicator, n, ghost_owner, ghosts,
+      [&](const GlobalIndex key)
+      { return std::lower_bound(ids.begin(), ids.end(), key) - ids.begin(); });
+  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
+  nodal_state.resize(ids.size());
+  nodal_state.global_id = ids;
+  node_exchange.update(nodal_state.reference_position.data());
+  node_exchange.update(nodal_state.position.data());
+  node_exchange.update(nodal_state.velocity.data());
+  node_exchange.update(nodal_state.lumped_mass.data());
+  node_exchange.update(nodal_state.inertia.data());
+  bonds.connect(rows, ids, ghost_owner, n_global, communicator);
+  generalized_stress.resize(ids.size(), Mat::zero());
+  kernel.resize(ids.size());
+  previous_position = nodal_state.position;
+  failure_measure.resize(ids.size());
+  if (second_gradient)
+    second_gradient->generalized_stress.resize(ids.size());
 }
 
 const double *SpgBody::state_array(const std::string &wanted) const
 {
   return find_state(state_variables, state_data, nodal_state.n_owned, wanted);
+}
+
+void SpgBody::set_state(const std::string &wanted, const std::size_t i,
+                        const double value)
+{
+  const_cast<double *>(state_array(wanted))[i] = value;
 }
 
 std::vector<std::size_t>
@@ -198,7 +182,7 @@ DebrisView SpgBody::debris() const
 {
   DebrisView view;
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (has_failed_bond[i])
+    if (n_failed[i] > 0)
       view.nodes.push_back(i);
   const double K = material->bulk_modulus(), G = material->shear_modulus();
   view.young_modulus = 9. * K * G / (3. * K + G);

@@ -14,49 +14,96 @@ void SpgBody::update_ghosts()
 
 void SpgBody::compute_forces(const double /*time*/, const double dt)
 {
-  const std::size_t n = nodal_state.n_owned;
   current_stable_step = std::numeric_limits<double>::max();
   stable_step_item = -1;
   largest_change = 1.;
   std::string problem;
-  for (std::size_t begin = 0; begin < n; begin += batch_size)
+  const bool convex =
+      options.approximation != SpgOptions::Approximation::least_squares;
+  using S = Stabilization;
+  switch (options.stabilization)
   {
-    const std::size_t end = std::min(begin + batch_size, n);
-    gradients(begin, end, dt, problem);
-    residuals(begin, end);
-    if (dt > 0.)
-      stresses(begin, end, dt);
-    generalized_stresses(begin, end);
+  case S::bond_residual:
+    convex ? force_loop<true, S::bond_residual>(dt, problem)
+           : force_loop<false, S::bond_residual>(dt, problem);
+    break;
+  case S::second_gradient:
+    force_loop<true, S::second_gradient>(dt, problem);
+    break;
+  default:
+    convex ? force_loop<true, S::none>(dt, problem)
+           : force_loop<false, S::none>(dt, problem);
   }
-  node_exchange.update(generalized_stress.data());
-  bonds.exchange_forces();
-  gather_forces();
-  // Only now: the other ranks wait for the exchanges above.
+  // Only now: the other ranks wait for the exchanges of the loop.
   if (!problem.empty())
     throw PhysicsError(problem);
 }
 
+template <bool stored_gradients, SpgBody::Stabilization stabilization>
+void SpgBody::force_loop(const double dt, std::string &problem)
+{
+  const std::size_t n = nodal_state.n_owned;
+  constexpr bool has_residuals = stabilization == Stabilization::bond_residual;
+  for (std::size_t begin = 0; begin < n; begin += batch_size)
+  {
+    const std::size_t end = std::min(begin + batch_size, n);
+    gradients<stored_gradients>(begin, end, dt, problem);
+    if constexpr (has_residuals)
+      residuals(begin, end);
+    else if constexpr (stabilization == Stabilization::second_gradient)
+      for (std::size_t i = begin; i < end; ++i)
+        batch.extra_square[i - begin] =
+            second_gradient->trial(i, bonds, nodal_state.position.data(),
+                                   batch.velocity_gradient[i - begin],
+                                   transpose(batch.nominal[i - begin]));
+    if (dt > 0.)
+      stresses(begin, end, dt);
+    generalized_stresses<stored_gradients, stabilization>(begin, end);
+  }
+  node_exchange.update(generalized_stress.data());
+  if constexpr (has_residuals)
+  {
+    bonds.update_ghosts(bonds.residual.data());
+    std::copy(nodal_state.position.begin(), nodal_state.position.end(),
+              previous_position.begin());
+  }
+  gather_forces<stored_gradients, has_residuals>();
+  if constexpr (stabilization == Stabilization::second_gradient)
+    second_gradient->gather(bonds, node_exchange, nodal_state.n_owned,
+                            nodal_state.force.data());
+}
+
+template <bool stored_gradients>
 void SpgBody::gradients(const std::size_t begin, const std::size_t end,
                         const double dt, std::string &problem)
 {
   const Vec *const x = nodal_state.position.data();
   const Vec *const X = kernel_position.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const double *const weight = bonds.weight.data();
   const double c = material->sound_speed();
   for (std::size_t i = begin; i < end; ++i)
   {
     Mat A = Mat::zero();
     const Vec xi = x[i], Xi = X[i];
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
     {
-      const std::uint32_t j = bonds.neighbor[b];
+      const std::uint32_t j = neighbor[b];
       const Vec dX = X[j] - Xi;
-      add_outer(A, x[j] - xi - dX, bonds.weight[b] * dX);
+      if constexpr (stored_gradients)
+        add_outer(A, x[j] - xi - dX, shape_gradient[b]);
+      else
+        add_outer(A, x[j] - xi - dX, weight[b] * dX);
     }
-    const Mat F = Mat::identity() + A * moment_inverse[i];
+    if constexpr (!stored_gradients)
+      A = A * moment_inverse[i];
+    const Mat F = Mat::identity() + A;
     const Mat F_old = gradient[i];
     gradient[i] = F;
     const Mat l = (F - F_old) * inverse(0.5 * (F + F_old));
-    const double J = determinant(F), J_old = determinant(F_old);
+    double J_old;
+    const Mat F_old_inverse = inverse(F_old, J_old);
     const double V0 = reference_volume[i], V = kernel_volume[i];
 
     const std::size_t k = i - begin;
@@ -69,17 +116,21 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     batch.spin[0][k] = 0.5 * (l(0, 1) - l(1, 0));
     batch.spin[1][k] = 0.5 * (l(1, 2) - l(2, 1));
     batch.spin[2][k] = 0.5 * (l(0, 2) - l(2, 0));
-    batch.jacobian[k] = V / V0 * J;
-    batch.half_volume[k] = 0.25 * V * (J + J_old);
+    batch.velocity_gradient[k] = (F - F_old) * F_old_inverse;
 
     // Nominal-stress factor F^-T, completed once the stress is known; its
     // size also tells how much stiffer compression has made the particle.
-    const Mat F_inverse = inverse(F);
+    double J;
+    const Mat F_inverse = inverse(F, J);
     batch.nominal[k] = transpose(F_inverse);
-    const double stiffening = norm_square(F_inverse.row[0]) +
-                              norm_square(F_inverse.row[1]) +
-                              norm_square(F_inverse.row[2]) - 2.;
-    double step = update_stable_step[i] / std::sqrt(std::max(1., stiffening));
+    batch.jacobian[k] = V / V0 * J;
+    batch.half_volume[k] = 0.25 * V * (J + J_old);
+    const double compression = norm_square(F_inverse.row[0]) +
+                               norm_square(F_inverse.row[1]) +
+                               norm_square(F_inverse.row[2]) - 2.;
+    double step = update_stable_step[i] / std::sqrt(std::max(1., compression));
+    if (!stiffening.empty())
+      step /= std::sqrt(std::max(1., stiffening[i]));
     // Bulk viscosity, as for hexahedra; a flattened particle's step tells its
     // smallest dimension.
     const double rate = dt > 0. ? trace(l) / dt : 0.;
@@ -92,7 +143,9 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
       const double l_norm =
           std::sqrt(norm_square(l.row[0]) + norm_square(l.row[1]) +
                     norm_square(l.row[2]));
-      step /= 1. + options.bulk_viscosity_linear + h * l_norm / (c * dt);
+      // The bulk viscosity's damping ratio acts in compression only.
+      step /= 1. + (rate < 0. ? options.bulk_viscosity_linear : 0.) +
+              h * l_norm / (c * dt);
     }
     if (step < current_stable_step)
     {
@@ -107,6 +160,56 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
                 ") m: incremental deformation gradient has determinant " +
                 std::to_string(J);
     largest_change = std::max({largest_change, J, 1. / J});
+  }
+}
+
+void SpgBody::residuals(const std::size_t begin, const std::size_t end)
+{
+  // Trial residuals e = dx - F Xi by increments, which needs no Xi:
+  //   e = dx - F_new F_old^-1 (dx_old - theta_old e_old).
+  // Their mean square as a stress, 3 (alpha mu)^2 sum phi |e|^2 / S
+  // = 3 alpha mu (2 W / V), yields together with the deviator.
+  const Vec *const x = nodal_state.position.data();
+  const Vec *const x_old = previous_position.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const double *const weight = bonds.weight.data();
+  StoredVec *const residual = bonds.residual.data();
+  const double modulus =
+      3. * options.stabilization_coefficient * material->shear_modulus();
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::size_t k = i - begin;
+    const Mat l = transpose(batch.velocity_gradient[k]);
+    const Vec xi = x[i], xi_old = x_old[i];
+    const double theta = residual_factor[i];
+    Vec trial_square = {}, old_trial = {}, old_square = {};
+    Mat on_bond = Mat::zero(), on_residual = Mat::zero();
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
+    {
+      const std::uint32_t j = neighbor[b];
+      const Vec dx = x[j] - xi, dx_old = x_old[j] - xi_old;
+      const Vec e_old = theta * load(residual[b]);
+      const StoredVec stored =
+          store(dx - dx_old + e_old - multiply_columns(l, dx_old - e_old));
+      residual[b] = stored;
+      // As stored: forces along e itself keep the angular momentum exact.
+      const Vec e = load(stored);
+      const Vec we = weight[b] * e;
+      trial_square += we * e;
+      old_trial += we * e_old;
+      old_square += weight[b] * e_old * e_old;
+      add_outer(on_bond, we, dx);
+      add_outer(on_residual, we, e);
+    }
+    const auto sum = [](const Vec v) { return v[0] + v[1] + v[2]; };
+    const double stiffness = bond_stiffness[i];
+    batch.trial_square[k] = stiffness * sum(trial_square);
+    batch.old_trial[k] = stiffness * sum(old_trial);
+    batch.old_square[k] = stiffness * sum(old_square);
+    batch.residual_on_bond[k] = on_bond;
+    batch.residual_on_residual[k] = on_residual;
+    batch.extra_square[k] = modulus * batch.trial_square[k] / kernel_volume[i];
   }
 }
 
@@ -150,6 +253,25 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   points.extra_square = batch.extra_square;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
+  if (material->needs_viscous_pressure())
+  {
+    for (std::size_t k = 0; k < m; ++k)
+      batch.mean_viscous_pressure[k] =
+          0.5 * (viscous_pressure[begin + k] + batch.viscous_pressure[k]);
+    points.viscous_pressure = batch.mean_viscous_pressure;
+  }
+  if (material->needs_deformation_gradient())
+    for (std::size_t k = 0; k < m; ++k)
+    {
+      const Mat F = deformation_gradient(begin + k);
+      for (int c = 0; c < 9; ++c)
+      {
+        batch.deformation_gradient[c][k] = F(c / 3, c % 3);
+        points.deformation_gradient[c] = batch.deformation_gradient[c];
+      }
+    }
+  if (!stiffening.empty())
+    points.stiffening = &stiffening[begin];
   material->update(points);
 
   // A particle that lost a direction carries no tension across the gap.
@@ -177,34 +299,7 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   }
 }
 
-void SpgBody::residuals(const std::size_t begin, const std::size_t end)
-{
-  // Trial residuals, kept in force[]. Their mean square as a stress,
-  // 3 (alpha mu)^2 sum phi |e|^2 / S = 3 alpha mu (2 W / V), yields together
-  // with the deviator (doc/theory-spg.md).
-  const Vec *const x = nodal_state.position.data();
-  const double modulus =
-      3. * options.stabilization_coefficient * material->shear_modulus();
-  for (std::size_t i = begin; i < end; ++i)
-  {
-    const Mat F = gradient[i];
-    const Vec xi = x[i];
-    double sum = 0., old_force = 0.;
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    {
-      const Vec e = x[bonds.neighbor[b]] - xi - F * bonds.rest[b];
-      old_force += dot(bonds.force[b], e);
-      bonds.force[b] = e;
-      sum += bonds.weight[b] * norm_square(e);
-    }
-    const std::size_t k = i - begin;
-    batch.old_force_on_residual[k] = old_force;
-    batch.trial_residual[k] = bond_stiffness[i] * sum;
-    batch.extra_square[k] =
-        modulus * batch.trial_residual[k] / kernel_volume[i];
-  }
-}
-
+template <bool stored_gradients, SpgBody::Stabilization stabilization>
 void SpgBody::generalized_stresses(const std::size_t begin,
                                    const std::size_t end)
 {
@@ -217,49 +312,65 @@ void SpgBody::generalized_stresses(const std::size_t begin,
     const Mat sigma = {{vec(s[0] - q, s[3 * n], s[5 * n]),
                         vec(s[3 * n], s[n] - q, s[4 * n]),
                         vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
-    const double V = kernel_volume[i] * determinant(gradient[i]); // J V
-    Mat moment = V * (sigma * batch.nominal[k]);
-
+    const double V = batch.jacobian[k] * reference_volume[i]; // J V
     const double theta = batch.return_factor[k];
-    const double stiffness = theta * bond_stiffness[i];
-    // Work of the mean of old and new bond forces along the change of e.
-    const double trial = batch.trial_residual[k];
-    bond_work[i] += 0.5 * ((1. - theta) * batch.old_force_on_residual[k] -
-                           force_on_residual[i] + theta * trial);
-    force_on_residual[i] = theta * theta * trial;
-    if (theta < 1.)
+    Mat spatial = V * sigma;
+    double stiffness = 0.;
+    if constexpr (stabilization == Stabilization::bond_residual)
     {
-      // The residual flows with the deviator.
-      const Mat relax = (1. - theta) * transpose(batch.nominal[k]);
-      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-        bonds.rest[b] += relax * bonds.force[b];
+      stiffness = theta * bond_stiffness[i];
+      // sum t (x) F Xi with F Xi = dx - e, t = k phi theta e_trial: the
+      // residuals' part of the stress.
+      spatial = spatial - stiffness * (batch.residual_on_bond[k] -
+                                       theta * batch.residual_on_residual[k]);
+      // Work of the mean of old and new bond forces along the change of e.
+      bond_work[i] +=
+          0.5 * ((1. - theta) * batch.old_trial[k] - batch.old_square[k] +
+                 theta * batch.trial_square[k]);
+      residual_factor[i] = theta;
     }
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    {
-      const Vec t = stiffness * bonds.weight[b] * bonds.force[b];
-      bonds.force[b] = t;
-      add_outer(moment, -t, bonds.rest[b]);
-    }
-    generalized_stress[i] = moment * moment_inverse[i];
+    else if constexpr (stabilization == Stabilization::second_gradient)
+      spatial =
+          spatial + second_gradient->finish(i, theta, V, batch.nominal[k]);
+    Mat moment = spatial * batch.nominal[k];
+    if constexpr (!stored_gradients)
+      moment = moment * moment_inverse[i];
+    generalized_stress[i] = transpose(moment);
+    generalized_stress[i].row[0][3] = stiffness;
   }
 }
 
+template <bool stored_gradients, bool has_residuals>
 void SpgBody::gather_forces()
 {
   const Vec *const X = kernel_position.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data(), *const reverse =
+                                                                   bonds.reverse
+                                                                       .data();
+  const double *const weight = bonds.weight.data();
+  const StoredVec *const residual = bonds.residual.data();
+  const Mat *const stress = generalized_stress.data();
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
   {
-    const Mat Q = generalized_stress[i];
+    const Mat Q = stress[i];
+    const double own_stiffness = Q.row[0][3];
     const Vec Xi = X[i];
-    // Columns of the sum are kept apart: three multiply-adds per bond.
     Vec f = {};
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
     {
-      const std::uint32_t j = bonds.neighbor[b];
-      const Mat &QJ = generalized_stress[j];
-      const Vec dX = bonds.weight[b] * (X[j] - Xi);
-      f += (Q + QJ) * dX + bonds.force[b] - bonds.force[bonds.reverse[b]];
+      const std::uint32_t j = neighbor[b];
+      const Mat &QJ = stress[j];
+      if constexpr (stored_gradients)
+        f += multiply_columns(Q, shape_gradient[b]) -
+             multiply_columns(QJ, shape_gradient[reverse[b]]);
+      else
+        f += multiply_columns(Q + QJ, weight[b] * (X[j] - Xi));
+      if constexpr (has_residuals)
+        f += weight[b] * (own_stiffness * load(residual[b]) -
+                          QJ.row[0][3] * load(residual[reverse[b]]));
     }
+    f[3] = 0.;
     nodal_state.force[i] = f;
   }
 }

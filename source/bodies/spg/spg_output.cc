@@ -14,6 +14,8 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
                        norm_square(nodal_state.velocity[i]));
     ledger.internal.add(internal_energy[i]);
     ledger.stabilization.add(bond_work[i]);
+    if (second_gradient)
+      ledger.stabilization.add(second_gradient->work[i]);
     ledger.plastic_work.add(plastic_work[i]);
   }
 }
@@ -22,34 +24,42 @@ Measures SpgBody::measure() const
 {
   const double *const eps = state_array("effective plastic strain");
   const double *const temperature = state_array("temperature");
-  ExactSum internal, stabilization, bonds_now, bonds_initial, n_weak,
-      n_isolated;
+  bool has_temperature = false; // also on ranks without particles
+  for (const StateVariable &variable : state_variables)
+    has_temperature = has_temperature || variable.name == "temperature";
+  ExactSum internal, stabilization, bonds_failed, bonds_all, n_weak, n_isolated,
+      fallbacks;
+  fallbacks.add(n_fallback);
   double top[2] = {0., 0.};
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
   {
     internal.add(internal_energy[i]);
-    stabilization.add(bond_work[i]);
-    bonds_now.add(bonds.n_bonds(i));
-    bonds_initial.add(bonds.n_initial(i));
+    stabilization.add(bond_work[i] +
+                      (second_gradient ? second_gradient->work[i] : 0.));
+    bonds_failed.add(n_failed[i]);
+    bonds_all.add(bonds.n_bonds(i) + n_failed[i]);
     n_weak.add(weak[i]);
     n_isolated.add(bonds.n_bonds(i) == 0);
     top[0] = std::max(top[0], eps ? eps[i] : 0.);
     top[1] = std::max(top[1], temperature ? temperature[i] : 0.);
   }
-  ExactSum::reduce({&internal, &stabilization, &bonds_now, &bonds_initial,
-                    &n_weak, &n_isolated},
+  ExactSum::reduce({&internal, &stabilization, &bonds_failed, &bonds_all,
+                    &n_weak, &n_isolated, &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   Measures measures = measure_nodes(nodal_state, communicator);
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"stabilisation energy", "J", stabilization.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
-  const double n = bonds_initial.value();
+  const double n = bonds_all.value();
   measures.push_back(
-      {"bonds broken fraction", "1", n > 0. ? 1. - bonds_now.value() / n : 0.});
+      {"bonds broken fraction", "1", n > 0. ? bonds_failed.value() / n : 0.});
+  measures.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
   measures.push_back({"weak particles", "1", n_weak.value()});
   measures.push_back({"isolated particles", "1", n_isolated.value()});
-  if (temperature)
+  if (options.approximation != SpgOptions::Approximation::least_squares)
+    measures.push_back({"approximation fallbacks", "1", fallbacks.value()});
+  if (has_temperature)
     measures.push_back({"temperature max", "K", top[1]});
   return measures;
 }
@@ -83,9 +93,16 @@ OutputMesh SpgBody::output_mesh() const
   add_field(fields, "failed-bond fraction", "1", n, 1,
             [&](const std::size_t i, const unsigned int)
             {
-              const double initial = bonds.n_initial(i);
-              return initial > 0. ? 1. - bonds.n_bonds(i) / initial : 0.;
+              const double all = bonds.n_bonds(i) + n_failed[i];
+              return all > 0. ? n_failed[i] / all : 0.;
             });
+  if (options.can_fail())
+  {
+    const std::vector<GlobalIndex> labels = fragment_labels();
+    add_field(fields, "fragment", "1", n, 1,
+              [&](const std::size_t i, const unsigned int)
+              { return double(labels[i]); });
+  }
   add_field(fields, "body", "1", n, 1,
             [&](std::size_t, unsigned int) { return double(id); });
   add_field(fields, "rank", "1", n, 1,
@@ -93,14 +110,77 @@ OutputMesh SpgBody::output_mesh() const
   return mesh;
 }
 
+void SpgBody::visit_bonds(StateVisitor &visitor)
+{
+  const std::size_t n = nodal_state.n_owned;
+  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
+  {
+    // The list itself is state.
+    std::vector<std::uint32_t> lengths(n), n_pairs(n, 0);
+    std::vector<GlobalIndex> neighbors, pairs;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      lengths[i] = bonds.n_bonds(i);
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+        neighbors.push_back(nodal_state.global_id[bonds.neighbor[b]]);
+      if (!failed_pairs.empty())
+      {
+        n_pairs[i] = failed_pairs[i].size();
+        pairs.insert(pairs.end(), failed_pairs[i].begin(),
+                     failed_pairs[i].end());
+      }
+    }
+    visitor.visit_array("row lengths", lengths);
+    visitor.visit_resized("row neighbours", neighbors);
+    visitor.visit_array("failed pair counts", n_pairs);
+    visitor.visit_resized("failed pairs", pairs);
+    if (visitor.is_restoring())
+    {
+      BondList::Rows rows(n);
+      auto j = neighbors.begin();
+      auto pair = pairs.begin();
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        rows[i].assign(j, j + lengths[i]);
+        j += lengths[i];
+        if (!failed_pairs.empty())
+          failed_pairs[i].assign(pair, pair + n_pairs[i]);
+        pair += n_pairs[i];
+      }
+      renumber(rows);
+    }
+  }
+  visitor.visit_array("bond count", bonds.count);
+  visitor.visit_array("bond neighbour", bonds.neighbor);
+  visitor.visit_array("bond weight", bonds.weight);
+  if (visitor.is_restoring())
+    bonds.reconnect();
+  // Ghosts' bonds come anew.
+  const auto visit = [&](const std::string &array, auto &data)
+  {
+    if (data.empty())
+      return;
+    data.resize(bonds.n_with_ghosts());
+    visitor.visit(array, data.data(), bonds.capacity(), sizeof(data[0]));
+    if (visitor.is_restoring())
+      bonds.update_ghosts(data.data());
+  };
+  visit("bond residual", bonds.residual);
+  visit("shape gradient", shape_gradient);
+  if (second_gradient)
+    visit("second gradient of bonds", second_gradient->bond_gradient);
+}
+
 void SpgBody::visit_state(StateVisitor &visitor)
 {
+  visit_bonds(visitor);
   const auto visit = [&](const std::string &array, auto &data)
-  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
+  { visitor.visit_array(array, data); };
   visit("position", nodal_state.position);
   visit("velocity", nodal_state.velocity);
   visit("force", nodal_state.force);
   visit("inertia", nodal_state.inertia);
+  visit("previous position", previous_position);
   visit("kernel position", kernel_position);
   visit("kernel", kernel);
   visit("kernel volume", kernel_volume);
@@ -108,23 +188,26 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("total gradient", total_gradient);
   visit("moment inverse", moment_inverse);
   visit("bond stiffness", bond_stiffness);
+  visit("residual factor", residual_factor);
   visit("weak", weak);
-  visit("has failed bond", has_failed_bond);
+  visit("failed bonds", n_failed);
   visit("stress", stress_data);
   visit("state", state_data);
   visit("viscous pressure", viscous_pressure);
+  visit("stiffening", stiffening);
   visit("internal energy", internal_energy);
   visit("bond work", bond_work);
-  visit("force on residual", force_on_residual);
-  visit("bond force", bonds.force);
   visit("plastic work", plastic_work);
   visit("update stable step", update_stable_step);
-  visit("bond count", bonds.count);
-  visit("bond neighbour", bonds.neighbor);
-  visit("bond weight", bonds.weight);
-  visit("bond rest", bonds.rest);
-  visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
-  visitor.visit("largest change", &largest_change, 1, sizeof(double));
-  bonds.reconnect();
+  if (second_gradient)
+    second_gradient->visit_state(visit);
+  visitor.visit_value("stable step", current_stable_step);
+  visitor.visit_value("stable step item", stable_step_item);
+  visitor.visit_value("step calibration", step_calibration);
+  visitor.visit_value("initial calibration", initial_calibration);
+  visitor.visit_value("last calibration", last_calibration);
+  visitor.visit_value("kernel updates", n_updates);
+  visitor.visit_value("fallbacks", n_fallback);
+  visitor.visit_value("largest change", largest_change);
 }
 } // namespace sabot

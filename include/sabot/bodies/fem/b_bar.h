@@ -34,6 +34,9 @@ public:
   void keep(const std::vector<std::size_t> &kept) override;
   void visit_state(StateVisitor &visitor) override;
 
+protected:
+  Mat gradient(const std::size_t point) const override;
+
 private:
   static constexpr int n_packs = 2; // per cell
   static constexpr std::size_t cells_per_batch = batch_size / 8;

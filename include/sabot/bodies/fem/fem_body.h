@@ -4,6 +4,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/fem/heat_conduction.h"
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/hex_mesh.h"
@@ -60,8 +61,20 @@ public:
   {
     return cells->stress(component, cell);
   }
+  std::vector<double> cell_state(const std::string &variable) const
+  {
+    return cells->cell_state(variable);
+  }
+  void shift_state(const std::string &variable,
+                   const std::vector<double> &change)
+  {
+    cells->shift_state(variable, change);
+  }
 
 private:
+  /** Whether the material has this state variable. */
+  bool has_state(const std::string &variable) const;
+  void conduct_heat(const double time);
   /** Axis of the normal of the faces with boundary id @p id; throws InputError
       unless they lie in one plane across an axis. */
   int symmetry_axis(const unsigned int id) const;
@@ -71,10 +84,13 @@ private:
   void set_up_erosion();
   /** Active cells that meet a criterion, ascending. */
   std::vector<std::size_t> cells_to_erode() const;
+  /** Erode what meets a criterion. Collective. */
+  void erode_cells();
   void erode(const std::vector<std::size_t> &cells);
   void update_boundary(const std::vector<std::uint32_t> &dead);
   /** Drop the active cells whose initial cell is dead from all arrays. */
   void compact();
+  void visit_erosion(StateVisitor &visitor);
   void add_erosion_measures(Measures &measures) const;
   /** Which owned nodes lost all their cells; null where none can. */
   const std::vector<char> *free_nodes() const;
@@ -111,6 +127,8 @@ private:
     ExactSum mass, energy, plastic_work, n_cells; // eroded, of owned cells
   };
   std::unique_ptr<Erosion> erosion;
+  std::unique_ptr<HeatConduction> heat; // only where asked for
+  double last_conduction = 0.;          // [s]
 };
 } // namespace sabot
 

@@ -25,7 +25,13 @@ struct FemOptions
     viscous,
     stiffness
   };
+  enum class ObjectiveRate
+  {
+    jaumann,
+    green_naghdi
+  };
   Hourglass hourglass = Hourglass::viscous;
+  ObjectiveRate objective_rate = ObjectiveRate::jaumann;
   double hourglass_coefficient = 0.1;
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
@@ -47,6 +53,8 @@ struct FemOptions
   /** Of the nodes of driven faces; only the held components count. */
   std::array<double, 3> driven_velocity{{0., 0., 0.}}; // [m/s]
   std::array<bool, 3> driven_components{{true, true, true}};
+  bool conducts_heat = false;
+  double conduction_interval = 1e-6; // [s]
 
   bool erodes() const
   {

@@ -70,6 +70,8 @@ public:
   /** Mean of a scalar state variable over the points of each cell; empty when
       the material does not have it. */
   std::vector<double> cell_state(const std::string &name) const;
+  /** Add the change of each cell to a scalar state variable at its points. */
+  void shift_state(const std::string &name, const std::vector<double> &change);
 
   StableStep smallest_step;
   std::vector<double> cell_step;      // [s], kept where erosion asks for it
@@ -78,6 +80,7 @@ public:
 protected:
   /** Points per batch; what one needs stays in the first-level cache. */
   static constexpr std::size_t batch_size = 32;
+  static_assert(batch_size <= max_batch_points, "materials take no more");
   struct PointBatch
   {
     alignas(64) double strain[6][batch_size];
@@ -85,13 +88,20 @@ protected:
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
+    double step[batch_size]; // of cells; n_points of them apart
+    // For materials that need them
+    double mean_viscous_pressure[batch_size], stiffening[batch_size];
+    double deformation_gradient[9][batch_size];
   };
 
   /** Arrays of points for the cells of connectivity. */
   void allocate_points();
   void keep_points(const std::vector<std::size_t> &kept);
-  /** Stress, work and state of @p m points from @p begin on. */
-  void update_stress(const std::size_t begin, const std::size_t m,
+  /** F at a point. */
+  virtual Mat gradient(const std::size_t point) const = 0;
+  /** Stress, work and state of @p m points from @p begin on; steps of cells
+      that are stiffer than at rest. Forces only at @p dt = 0. */
+  void update_points(const std::size_t begin, const std::size_t m,
                      const double dt, PointBatch &batch);
   /** Judges a step that took @p cell from volume ratio @p J_old to @p J, a
       third or more lost. Throws PhysicsError, or notes the cell.
@@ -119,8 +129,19 @@ protected:
   AlignedVector<double> stress_data, state_data; // [row][stride]
   AlignedVector<double> viscous_pressure;        // of the last step [Pa]
   AlignedVector<double> point_energy, point_plastic_work; // [J]
+  AlignedVector<Mat> polar_rotation; // R, for the Green-Naghdi rate only
 
 private:
+  /** First row of a variable in state_data; n_states where there is none. */
+  std::size_t state_row(const std::string &name) const;
+  /** Replace the spin increments by those of R, F = R U. */
+  void polar_spin(const std::size_t begin, const std::size_t m,
+                  PointBatch &batch);
+  /** F with the volume ratio that the material sees. */
+  void set_deformation_gradient(const std::size_t begin, const std::size_t m,
+                                PointBatch &batch) const;
+  void update_stress(const std::size_t begin, const std::size_t m,
+                     const double dt, PointBatch &batch);
   double sum_points(const AlignedVector<double> &values,
                     const std::size_t e) const
   {

@@ -36,6 +36,9 @@ public:
   void keep(const std::vector<std::size_t> &kept) override;
   void visit_state(StateVisitor &visitor) override;
 
+protected:
+  Mat gradient(const std::size_t point) const override;
+
 private:
   /** Reference data of four cells, read twice per step. */
   struct Geometry

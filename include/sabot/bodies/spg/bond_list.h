@@ -14,25 +14,34 @@ namespace sabot
 /**
  * The bonds of the owned particles as one compressed list, each row sorted by
  * the global number of the neighbour. A bond is stored from both of its ends;
- * reverse[] leads from one to the other. Bonds are only ever removed: a row
- * keeps its place and gets shorter.
+ * reverse[] leads from one to the other. Rows only get shorter, unless a new
+ * list is built (build() and connect(), which keep the residuals).
  */
 class BondList
 {
 public:
-  /**
-   * Bonds between points closer than @p support in units of @p spacing per
-   * axis. @p owned_ids: global numbers of this rank's particles, ascending.
-   * @return global numbers of the neighbours that are not owned, ascending.
-   */
-  std::vector<GlobalIndex>
-  build(const std::vector<std::array<double, 3>> &points,
-        const std::array<double, 3> &spacing, const double support,
-        const std::vector<GlobalIndex> &owned_ids);
+  /** Row of neighbours, by global number, of every owned particle. */
+  using Rows = std::vector<std::vector<GlobalIndex>>;
 
-  /** Second half of the set-up, when ghosts are numbered. @p global_id of all
-      local particles, owners of the ghosts. Collective. */
-  void connect(const std::vector<GlobalIndex> &global_id,
+  /**
+   * Rows of points closer than @p support in units of @p spacing per axis: by
+   * distance, or with @p cubic along every axis. @p owned_ids: global numbers
+   * of this rank's particles, ascending. Throws std::invalid_argument for
+   * points that coincide.
+   */
+  static Rows rows_within(const std::vector<std::array<double, 3>> &points,
+                          const std::array<double, 3> &spacing,
+                          const double support, const bool cubic,
+                          const std::vector<GlobalIndex> &owned_ids);
+
+  /** Numbers in @p rows that are not owned, ascending. */
+  static std::vector<GlobalIndex>
+  ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids);
+
+  /** Take over @p rows when ghosts are numbered; residuals of bonds that were
+      there before are kept. @p global_id of all local particles, owners of the
+      ghosts. Collective. */
+  void connect(const Rows &rows, const std::vector<GlobalIndex> &global_id,
                const std::vector<int> &ghost_owner, const GlobalIndex n_global,
                MPI_Comm communicator);
 
@@ -43,21 +52,25 @@ public:
   std::size_t begin(const std::size_t i) const { return row_start[i]; }
   std::size_t end(const std::size_t i) const { return row_start[i] + count[i]; }
   std::size_t n_bonds(const std::size_t i) const { return count[i]; }
-  std::size_t n_initial(const std::size_t i) const
-  {
-    return row_start[i + 1] - row_start[i];
-  }
   std::size_t capacity() const { return neighbor.size(); }
+  /** Capacity and the bonds of ghosts that end here. */
+  std::size_t n_with_ghosts() const
+  {
+    return neighbor.size() + exchange.n_ghosts();
+  }
 
-  /** Copy the forces of bonds that end here from the ranks that own their
-      start; collective. */
-  void exchange_forces() { exchange.update(force.data()); }
+  /** Fill the entries of ghosts' bonds in an array over n_with_ghosts();
+      collective. */
+  template <typename T>
+  void update_ghosts(T *data) const
+  {
+    exchange.update(data);
+  }
 
   std::vector<std::uint32_t> neighbor; // local index
-  std::vector<std::uint32_t> reverse;  // into force[]
+  std::vector<std::uint32_t> reverse;  // into arrays over n_with_ghosts()
   std::vector<double> weight;          // symmetric kernel weight
-  AlignedVector<Vec> rest;             // Xi: residual-free bond vector
-  AlignedVector<Vec> force;            // [capacity + bonds of ghosts]
+  AlignedVector<StoredVec> residual;   // e [m], [n_with_ghosts()]
 
   /** Rows, for checkpoints. After overwriting them, call reconnect(). */
   std::vector<std::uint32_t> count;
@@ -73,7 +86,6 @@ private:
   std::size_t n_owned = 0;
   MPI_Comm communicator = MPI_COMM_SELF;
   GhostExchange exchange;
-  std::vector<std::vector<GlobalIndex>> row_ids; // during the set-up only
 };
 } // namespace sabot
 

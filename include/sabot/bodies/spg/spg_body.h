@@ -5,49 +5,28 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/second_gradient.h"
+#include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/particle_cloud.h"
 #include "sabot/materials/material.h"
 
 #include <memory>
 
-namespace dealii
-{
-class ParameterHandler;
-}
-
 namespace sabot
 {
-/** Settings of a smoothed-particle-Galerkin body; defaults are those of the
-    reference paper where it gives one. */
-struct SpgOptions
-{
-  double normalized_support = 2.0;          // kernel radius over spacing
-  double stabilization_coefficient = 4.0;   // alpha of the bond residual
-  unsigned int kernel_update_interval = 30; // steps
-  unsigned int failure_check_interval = 5;  // steps
-  double critical_effective_plastic_strain = 1e10;
-  double critical_stretch = 1.0;
-  double bulk_viscosity_linear = 0.06;
-  double bulk_viscosity_quadratic = 1.5;
-  std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
-  std::uint8_t symmetry_faces = 0; // bits as in ParticleCloud::on_face
-
-  static void declare_parameters(dealii::ParameterHandler &prm);
-  static SpgOptions parse(const dealii::ParameterHandler &prm);
-};
-
 /**
- * Particles with least-squares (linearly corrected) approximation, direct
- * nodal integration, bond-residual stabilisation with history, an adaptive
- * anisotropic Lagrangian kernel and irreversible bond failure. Derivation:
- * doc/theory-spg.md. With N a particle, J its neighbours, X the configuration
- * of the last kernel update, dX = X_J - X_N, dx likewise now:
+ * Particles with first-order meshfree approximation, direct nodal integration,
+ * stabilisation, an adaptive anisotropic Lagrangian kernel and irreversible
+ * bond failure. Derivation: doc/theory-spg.md. With N a particle, J its
+ * neighbours, X the configuration of the last kernel update, dX = X_J - X_N,
+ * dx likewise now, g_NJ the gradient of J's function at N:
  *
- *   M_N = sum phi dX (x) dX,  F_N = 1 + [sum phi (dx - dX) (x) dX] M_N^-1,
- *   e_NJ = dx - F_N Xi_NJ,    t_NJ = theta_N k_N phi e_NJ,
- *   Q_N = (V_N P_N - sum t_NJ (x) Xi_NJ) M_N^-1,
- *   f_N = sum_J [phi (Q_N + Q_J) dX + t_NJ - t_JN].
+ *   F_N = 1 + sum (dx - dX) (x) g_NJ,
+ *   f_N = sum_J [ P_N V_N g_NJ - P_J V_J g_JN ] + stabilisation,
+ *
+ * for least squares g_NJ = phi M_N^-1 dX with M_N = sum phi dX (x) dX, and with
+ * Q_N = V_N P_N M_N^-1 simply f_N = sum_J phi (Q_N + Q_J) dX.
  *
  * Every particle gathers its own force, neighbours in global order, so results
  * do not depend on the number of ranks.
@@ -83,6 +62,7 @@ public:
   ContactSurface contact_surface() const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
+  std::vector<Fragment> fragments() const override;
 
   std::string item_name() const override { return "particles"; }
   GlobalIndex n_items() const override { return n_global; }
@@ -91,6 +71,11 @@ public:
   /** Local indices of owned particles on the faces of @p faces (bits as in
       ParticleCloud::on_face). */
   std::vector<std::size_t> particles_on_faces(const std::uint8_t faces) const;
+
+  /** Largest frequency of the linearised body at rest [rad/s], by @p n
+      Lanczos iterations on M^-1 K with elastic moduli in the configuration of
+      the last kernel update; from below. Collective. */
+  double largest_frequency(const unsigned int n);
 
   // For tests and verification problems.
   const BondList &bond_list() const { return bonds; }
@@ -102,28 +87,78 @@ public:
   {
     return stress_data[component * nodal_state.n_owned + i];
   }
+  void set_stress(const std::size_t component, const std::size_t i,
+                  const double value)
+  {
+    stress_data[component * nodal_state.n_owned + i] = value;
+  }
+  void set_state(const std::string &name, const std::size_t i,
+                 const double value);
+  std::size_t n_fallbacks() const { return n_fallback; }
+  std::size_t n_kernel_updates() const { return n_updates; }
+  bool is_weak(const std::size_t i) const { return weak[i]; }
 
 private:
+  using Stabilization = SpgOptions::Stabilization;
+
+  // spg_output.cc
+  void visit_bonds(StateVisitor &visitor);
+
+  // spg_body.cc
+  void renumber(const BondList::Rows &rows);
+
+  // spg_kernel.cc
   void set_up_kernel();
-  void update_kernel();
+  void update_kernel(const std::size_t step);
+  template <typename Kernel>
+  void compute_moments();
+  void prepare_kernel();
+
+  // spg_convex.cc
+  template <typename Kernel>
+  void compute_shape_gradients();
+  void set_convex_masses();
+
+  // spg_search.cc
+  void search_neighbors();
+
+  // spg_failure.cc
+  void update_failure_measure();
   /** Mark in failed[] the bonds whose criteria are met now. Collective.
       @return whether there are any on this rank. */
   bool find_failed_bonds();
   std::size_t fail_bonds();
-  void compute_moments();
+  std::vector<GlobalIndex> fragment_labels() const;
+
+  // spg_step.cc
   void estimate_stable_step();
+  void calibrate_stable_step();
+  void apply_linearized(const AlignedVector<Vec> &motion,
+                        AlignedVector<Vec> &force);
+
+  // spg_smoothing.cc
+  void smooth_velocities();
+  void smoothing_difference(AlignedVector<Vec> &velocity,
+                            AlignedVector<Vec> &contribution) const;
+
+  // spg_forces.cc
+  template <bool stored_gradients, Stabilization stabilization>
+  void force_loop(const double dt, std::string &problem);
+  template <bool stored_gradients>
   void gradients(const std::size_t begin, const std::size_t end,
                  const double dt, std::string &problem);
+  void residuals(const std::size_t begin, const std::size_t end);
   void stresses(const std::size_t begin, const std::size_t end,
                 const double dt);
-  void residuals(const std::size_t begin, const std::size_t end);
+  template <bool stored_gradients, Stabilization stabilization>
   void generalized_stresses(const std::size_t begin, const std::size_t end);
+  template <bool stored_gradients, bool has_residuals>
   void gather_forces();
   const double *state_array(const std::string &name) const;
 
   static constexpr std::size_t batch_size = 64;
   /** Fraction of the intact middle eigenvalue of the moment matrix below which
-      a direction counts as lost (prototype: 0.15, see doc/theory-spg.md). */
+      a direction counts as lost (doc/theory-spg.md). */
   static constexpr double lost_direction = 0.15;
 
   ParticleCloud cloud; // positions and volumes released after distribute()
@@ -133,14 +168,22 @@ private:
   GlobalIndex n_global = 0;
   std::array<double, 3> spacing;
   double mean_spacing = 0.;
+  std::vector<int> rank_of; // of every particle, for new neighbours
   GhostExchange node_exchange;
   BondList bonds;
 
   // Owned and ghost particles
-  AlignedVector<Vec> kernel_position;    // X of the last kernel update
-  AlignedVector<Mat> generalized_stress; // Q
-  AlignedVector<Mat> kernel;             // H, columns: semi-axes
-  std::vector<double> plastic_strain_copy;
+  AlignedVector<Vec> previous_position; // of the last force evaluation
+  AlignedVector<Vec> kernel_position;   // X of the last kernel update
+  /** Columns of Q (least squares) or V P (convex) in row[]; the fourth lane of
+      row[0] is the stiffness of the residuals, theta k. */
+  AlignedVector<Mat> generalized_stress;
+  AlignedVector<Mat> kernel; // H, columns: semi-axes
+  std::vector<double> failure_measure;
+
+  // Per bond, ghosts' bonds included; only for convex functions
+  AlignedVector<Vec> shape_gradient;
+  std::vector<double> shape_value, own_shape_value;
   std::vector<char> failed; // per bond, during an update
 
   // Owned particles
@@ -151,22 +194,29 @@ private:
   AlignedVector<Mat> total_gradient; // F up to the last kernel update
   AlignedVector<Mat> moment_inverse;
   std::vector<double> bond_stiffness;    // k_N = alpha mu V_N / S_N
+  std::vector<double> residual_factor;   // theta, due on residuals
   std::vector<double> intact_eigenvalue; // of the intact moment matrix
   std::vector<double> intact_spread;     // S_N of the intact neighbourhood
   std::vector<char> weak;                // a direction is lost
-  std::vector<char> has_failed_bond;
-  std::vector<double> stress_data;      // [6][n_owned]
-  std::vector<double> state_data;       // [n_states][n_owned]
-  std::vector<double> viscous_pressure; // of the last step [Pa]
+  std::vector<std::uint32_t> n_failed;   // bonds, per particle
+  std::vector<std::vector<GlobalIndex>> failed_pairs; // only when searching
+  std::vector<double> stress_data;                    // [6][n_owned]
+  std::vector<double> state_data;                     // [n_states][n_owned]
+  std::vector<double> viscous_pressure;               // of the last step [Pa]
+  std::vector<double> stiffening; // only of materials that stiffen
   std::vector<double> internal_energy, bond_work, plastic_work; // [J]
-  std::vector<double> force_on_residual;  // sum t . e of the last step [J]
   std::vector<double> update_stable_step; // [s] at the last kernel update
   double current_stable_step = 0.;
   GlobalIndex stable_step_item = -1;
-  double largest_change = 0.; // how far det F left 1, as a ratio >= 1
-  std::size_t n_removed_bonds = 0;
+  /** Proven part by which steps may exceed the Gershgorin bound. */
+  double step_calibration = 1.;
+  double initial_calibration = std::numeric_limits<double>::max();
+  std::size_t last_calibration = 0; // step
+  double largest_change = 0.;       // how far det F left 1, as a ratio >= 1
+  std::size_t n_updates = 0, n_fallback = 0;
   std::vector<StateVariable> state_variables;
   std::size_t n_states = 0;
+  std::unique_ptr<SecondGradient> second_gradient;
 
   /** Work arrays of one batch. */
   struct Batch
@@ -174,11 +224,17 @@ private:
     double strain[6][batch_size], spin[3][batch_size];
     double jacobian[batch_size], half_volume[batch_size];
     double viscous_pressure[batch_size];
+    double mean_viscous_pressure[batch_size];
+    double deformation_gradient[9][batch_size];
     double extra_square[batch_size];
-    double trial_residual[batch_size]; // sum k phi |e|^2 [J]
-    double old_force_on_residual[batch_size];
+    // Sums over bonds of phi times: trial square, old with trial, old square
+    double trial_square[batch_size], old_trial[batch_size],
+        old_square[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
-    Mat nominal[batch_size];
+    Mat residual_on_bond[batch_size];     // sum phi e (x) dx
+    Mat residual_on_residual[batch_size]; // sum phi e (x) e
+    Mat velocity_gradient[batch_size];    // F_new F_old^-1 - 1
+    Mat nominal[batch_size];              // F^-T
   };
   Batch batch;
   std::vector<double *> batch_states; // one pointer per state array

@@ -1,0 +1,111 @@
+// CPU time of the force loop of an SPG block, per particle-step.
+// spg_step --benchmark_filter=... ; see doc/performance.md
+#include "sabot/verification/world.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <benchmark/benchmark.h>
+
+namespace
+{
+using namespace sabot;
+
+std::shared_ptr<Material> johnson_cook()
+{
+  JohnsonCookParameters p;
+  p.A = 324e6;
+  p.B = 114e6;
+  p.n = 0.42;
+  p.C = 0.002;
+  p.m = 1.34;
+  p.reference_strain_rate = 1.;
+  p.room_temperature = p.initial_temperature = 294.;
+  p.melt_temperature = 925.;
+  p.specific_heat = 896.;
+  p.taylor_quinney = 0.9;
+  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33},
+                                       p);
+}
+
+void step(benchmark::State &state, const SpgOptions &options,
+          const double speed, const bool plastic)
+{
+  const double n = state.range(0), h = 1e-3;
+  World world;
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "block", 0,
+      perturbed_cloud({{(n - 1) * h, (n - 1) * h, (n - 1) * h}}, h, 0.1),
+      plastic ? johnson_cook() : elastic(), options));
+  world.distribute();
+  auto &body = *world.bodies[0];
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+  {
+    const Vec X = body.nodes().reference_position[i];
+    body.nodes().velocity[i] = speed / (n * h) * vec(-X[2], X[0], X[1]);
+  }
+  world.integrator.initialize();
+  for (int i = 0; i < 20; ++i)
+    world.advance(0.5);
+  const double dt = 0.5 * world.integrator.propose(false).dt;
+  for (auto _ : state)
+  {
+    for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+      body.nodes().position[i] += dt * body.nodes().velocity[i];
+    body.compute_forces(0., dt);
+  }
+  state.counters["items"] = body.n_items();
+}
+
+SpgOptions with(const SpgOptions::Stabilization s)
+{
+  SpgOptions o;
+  o.stabilization = s;
+  return o;
+}
+
+void elastic_unstabilised(benchmark::State &state)
+{
+  step(state, with(SpgOptions::Stabilization::none), 10., false);
+}
+void elastic_bond_residual(benchmark::State &state)
+{
+  step(state, SpgOptions(), 10., false);
+}
+void johnson_cook_unstabilised(benchmark::State &state)
+{
+  step(state, with(SpgOptions::Stabilization::none), 300., true);
+}
+void johnson_cook_bond_residual(benchmark::State &state)
+{
+  step(state, SpgOptions(), 300., true);
+}
+void convex_bond_residual(benchmark::State &state)
+{
+  SpgOptions o;
+  o.approximation = SpgOptions::Approximation::convex_exponential;
+  o.kernel_shape = SpgOptions::KernelShape::tensor;
+  o.normalized_support = 1.5;
+  step(state, o, 300., true);
+}
+void convex_second_gradient(benchmark::State &state)
+{
+  SpgOptions o = with(SpgOptions::Stabilization::second_gradient);
+  o.approximation = SpgOptions::Approximation::convex_exponential;
+  o.kernel_shape = SpgOptions::KernelShape::tensor;
+  o.normalized_support = 1.5;
+  step(state, o, 300., true);
+}
+BENCHMARK(elastic_unstabilised)->Arg(22);
+BENCHMARK(elastic_bond_residual)->Arg(22);
+BENCHMARK(johnson_cook_unstabilised)->Arg(22);
+BENCHMARK(johnson_cook_bond_residual)->Arg(22)->Arg(47);
+BENCHMARK(convex_bond_residual)->Arg(22);
+BENCHMARK(convex_second_gradient)->Arg(22);
+} // namespace
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,21 @@
+#ifndef sabot_base_hash_h
+#define sabot_base_hash_h
+
+#include <cstddef>
+#include <string>
+
+namespace sabot
+{
+/** SHA-256 (FIPS 180-4, by OpenSSL) as 64 hexadecimal digits. */
+std::string sha256(const void *data, const std::size_t n_bytes);
+inline std::string sha256(const std::string &text)
+{
+  return sha256(text.data(), text.size());
+}
+
+/** SHA-256 of the first @p n_bytes of a file; empty when it cannot be read or
+    is shorter. */
+std::string sha256_of_file(const std::string &file, const std::size_t n_bytes);
+} // namespace sabot
+
+#endif

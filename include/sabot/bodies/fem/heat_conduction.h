@@ -1,0 +1,72 @@
+#ifndef sabot_bodies_fem_heat_conduction_h
+#define sabot_bodies_fem_heat_conduction_h
+
+#include "sabot/base/ghost_exchange.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/base/state_visitor.h"
+
+#include <array>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * Heat conduction in hexahedra, rho_0 c dT/dt = div(k grad T) in the present
+ * configuration with insulated faces, by backward Euler on trilinear nodal
+ * temperatures with lumped capacity; conducts between steps of the motion.
+ *
+ * Cells keep their temperatures: what they gained since the last call (plastic
+ * heating) goes to their nodes, heat is conducted there, and the change alone
+ * comes back as the mean over a cell's nodes. No heat is gained or lost, and
+ * without conduction nothing is smoothed.
+ *
+ * Conjugate gradients with the diagonal as preconditioner: at the steps of
+ * explicit dynamics k dt/(rho c h^2) is far below 1 and a few iterations do.
+ * Rows are summed in global order and dot products exactly, so that the result
+ * does not depend on the number of ranks.
+ */
+class HeatConduction
+{
+public:
+  using Cells = std::vector<std::array<std::uint32_t, 8>>;
+  /** @p cells ascending in global order, all of the owned nodes' cells.
+      @param capacity  rho_0 c V_0 of each cell [J/K] */
+  HeatConduction(const double conductivity, const Cells &cells,
+                 const std::vector<double> &capacity, const NodalState &nodes,
+                 const GhostExchange &exchange, MPI_Comm communicator);
+
+  /** Conduct for @p dt [s]; @p temperature of the cells [K] is updated.
+      Collective. */
+  void advance(const NodalState &nodes, const double dt, double *temperature);
+
+  void visit_state(StateVisitor &visitor);
+  unsigned int last_iterations() const { return n_iterations; }
+
+private:
+  void start(const double *temperature);
+  void assemble(const NodalState &nodes);
+  /** product = (capacity/dt + conductance) x; ghosts of x are set first. */
+  void multiply(const double dt, std::vector<double> &x,
+                std::vector<double> &product) const;
+  void solve(const double dt, const std::vector<double> &right,
+             std::vector<double> &x);
+  double dot(const std::vector<double> &a, const std::vector<double> &b) const;
+
+  const double conductivity;
+  const Cells &cells;
+  const std::vector<double> capacity;
+  const GhostExchange &exchange;
+  MPI_Comm communicator;
+  std::size_t n_owned, n_nodes;
+  double largest_capacity = 0.; // over nodes and ranks, scales dot products
+  std::vector<double> nodal_capacity, nodal_temperature, last_temperature;
+  double is_started = 0.;
+  unsigned int n_iterations = 0;
+  // Rows of owned nodes, columns in ascending global order
+  std::vector<std::size_t> row_start;
+  std::vector<std::uint32_t> column;
+  std::vector<double> conductance; // [W/K]
+};
+} // namespace sabot
+
+#endif

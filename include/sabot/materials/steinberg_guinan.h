@@ -1,0 +1,76 @@
+#ifndef sabot_materials_steinberg_guinan_h
+#define sabot_materials_steinberg_guinan_h
+
+#include "sabot/materials/rate_dependent.h"
+
+namespace sabot
+{
+/** Steinberg, Cochran & Guinan 1980. */
+struct SteinbergGuinanParameters
+{
+  double yield_stress = 0.;            // Y_0 [Pa]
+  double largest_yield_stress = 0.;    // Y_max [Pa]
+  double beta = 0., n = 0.;            // work hardening
+  double initial_plastic_strain = 0.;  // eps_i
+  double pressure_coefficient = 0.;    // A = G'_p/G_0 [1/Pa]
+  double temperature_coefficient = 0.; // B = -G'_T/G_0 [1/K]
+  double reference_temperature = 300.; // [K]
+  double melt_temperature = 1000.;     // T_m0 [K]
+  double gruneisen = 2.;               // gamma_0 of the melting law
+  double melt_correction = 1.5;        // a
+};
+
+/**
+ * G/G_0 = 1 + A p J^(1/3) - B (T - T_ref),
+ * Y = min(Y_0 (1 + beta (eps + eps_i))^n, Y_max) G/G_0,
+ * T_m = T_m0 exp(2 a (1 - J)) J^(-2 (gamma_0 - a - 1/3)),
+ *
+ * with J^-1 the compression rho/rho_0. There is no rate effect: the model is
+ * meant for rates above 1e5 1/s. At T >= T_m neither strength nor shear
+ * modulus is left, and neither is ever negative.
+ */
+struct SteinbergGuinanFlow
+{
+  static constexpr bool constant_shear_modulus = false;
+  struct Point
+  {
+    double factor; // G/G_0
+  };
+  SteinbergGuinanParameters p;
+
+  double melt_temperature(const double J) const
+  {
+    return p.melt_temperature *
+           std::exp(2. * p.melt_correction * (1. - J) -
+                    2. * (p.gruneisen - p.melt_correction - 1. / 3.) *
+                        std::log(J));
+  }
+  Point at(const double temperature, const double pressure,
+           const double J) const
+  {
+    if (temperature >= melt_temperature(J))
+      return {0.};
+    return {std::max(0., 1. + p.pressure_coefficient * pressure * std::cbrt(J) -
+                             p.temperature_coefficient *
+                                 (temperature - p.reference_temperature))};
+  }
+  double lower_bound(const Point &point) const
+  {
+    return point.factor * std::min(p.yield_stress, p.largest_yield_stress);
+  }
+  double stress(const Point &point, const double eps, const double,
+                const double, double &slope) const
+  {
+    const double base = 1. + p.beta * (eps + p.initial_plastic_strain);
+    const double hardened = p.yield_stress * std::pow(base, p.n);
+    const bool saturated = hardened >= p.largest_yield_stress;
+    slope = saturated ? 0. : point.factor * p.n * p.beta * hardened / base;
+    return point.factor * std::min(hardened, p.largest_yield_stress);
+  }
+  double shear_factor(const Point &point) const { return point.factor; }
+};
+
+using SteinbergGuinan = RateDependentPlasticity<SteinbergGuinanFlow>;
+} // namespace sabot
+
+#endif

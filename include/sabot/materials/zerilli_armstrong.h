@@ -1,0 +1,73 @@
+#ifndef sabot_materials_zerilli_armstrong_h
+#define sabot_materials_zerilli_armstrong_h
+
+#include "sabot/materials/rate_dependent.h"
+
+namespace sabot
+{
+/** Zerilli & Armstrong 1987. */
+struct ZerilliArmstrongParameters
+{
+  bool is_bcc = false;
+  double C0 = 0.;                  // athermal and grain-size part [Pa]
+  double C1 = 0.;                  // bcc, thermal part [Pa]
+  double C2 = 0.;                  // fcc, thermal part [Pa]
+  double C3 = 0., C4 = 0.;         // [1/K]
+  double C5 = 0., n = 1.;          // bcc, hardening [Pa]
+  double melt_temperature = 1000.; // [K]
+};
+
+/**
+ * fcc: sigma = C0 + C2 sqrt(eps) exp(-C3 T + C4 T ln rate),
+ * bcc: sigma = C0 + C1 exp(-C3 T + C4 T ln rate) + C5 eps^n,
+ *
+ * rate in 1/s, not below 1e-12 1/s, where the logarithm would end. The law
+ * has no melting; at T >= T_m, a parameter of its own, strength is 0.
+ */
+template <bool bcc>
+struct ZerilliArmstrongFlow
+{
+  static constexpr bool constant_shear_modulus = true;
+  struct Point
+  {
+    double athermal, thermal, exponent; // exp(-C3 T) and C4 T
+    double hardening;
+  };
+  ZerilliArmstrongParameters p;
+
+  Point at(const double temperature, const double, const double) const
+  {
+    if (temperature >= p.melt_temperature)
+      return {0., 0., 0., 0.};
+    return {p.C0, (bcc ? p.C1 : p.C2) * std::exp(-p.C3 * temperature),
+            p.C4 * temperature, p.C5};
+  }
+  double lower_bound(const Point &point) const { return point.athermal; }
+  double stress(const Point &point, const double eps, const double rate,
+                const double dt, double &slope) const
+  {
+    const double slowest = 1e-12;
+    const double r = std::max(rate, slowest), safe = std::max(eps, 1e-14);
+    const double thermal =
+        point.thermal * std::exp(point.exponent * std::log(r));
+    const double rate_slope =
+        rate > slowest ? thermal * point.exponent / (r * dt) : 0.;
+    if (bcc)
+    {
+      const double hardening = point.hardening * std::pow(safe, p.n);
+      slope = rate_slope + p.n * hardening / safe;
+      return point.athermal + thermal + hardening;
+    }
+    const double root = std::sqrt(safe);
+    slope = root * rate_slope + 0.5 * thermal / root;
+    return point.athermal + thermal * root;
+  }
+  double shear_factor(const Point &) const { return 1.; }
+};
+
+using ZerilliArmstrongFcc =
+    RateDependentPlasticity<ZerilliArmstrongFlow<false>>;
+using ZerilliArmstrongBcc = RateDependentPlasticity<ZerilliArmstrongFlow<true>>;
+} // namespace sabot
+
+#endif

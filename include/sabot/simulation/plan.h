@@ -1,0 +1,102 @@
+#ifndef sabot_simulation_plan_h
+#define sabot_simulation_plan_h
+
+#include "sabot/simulation/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <mpi.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** A number that tells which physics a scene needs. */
+struct PlanNumber
+{
+  std::string name, formula;
+  double value;
+  std::string verdict;
+};
+
+/** A body before the run, as the estimates see it. */
+struct BodyFacts
+{
+  std::string name, material;
+  double density, bulk_modulus, shear_modulus; // [kg/m^3, Pa, Pa]
+  double wave_speed;                           // dilatational [m/s]
+  double yield_stress;        // at about 1e3 1/s [Pa]; huge: never yields
+  bool has_equation_of_state; // other than a constant bulk modulus
+  bool is_spg, is_rigid, is_clamped;
+  double failure_strain;                     // of bonds; huge: never
+  double spacing;                            // of nodes, finest [m]
+  std::array<double, 3> velocity, low, high; // [m/s, m, m]
+};
+
+/** Where the fastest body meets those at rest. */
+struct ImpactFacts
+{
+  bool exists = false;
+  std::size_t projectile = 0, target = 0; // bodies; the target's largest
+  double speed = 0.;                      // relative [m/s]
+  int axis = 2;                           // along which they meet
+  double radius = 0.;                     // of the projectile across it [m]
+  /** Compression of the finest cells at the interface: the kinetic energy
+      density of the motion towards it, 1/2 rho (v/2)^2, turned into plastic
+      work at the lower yield stress, at the rate (v/2)/radius; at most ln 4,
+      a cell flattened to a quarter. Own estimate. */
+  double largest_strain = 0., strain_rate = 0.; // [1, 1/s]
+};
+
+struct PhysicsPlan
+{
+  std::vector<BodyFacts> bodies;
+  ImpactFacts impact;
+  std::vector<PlanNumber> numbers;
+  std::vector<std::string> warnings; // where the scene's switches disagree
+};
+
+/** What a run would cost. */
+struct CostPlan
+{
+  struct Item
+  {
+    std::string body, kind; // "cells" or "particles"
+    double n, neighbours;   // mean, initial; 0 for cells
+  };
+  std::vector<Item> items;
+  double first_stable_step, mean_step; // [s]
+  std::string limiter;
+  double steps, seconds_per_step, set_up_seconds, seconds; // wall
+  double memory_bytes, output_bytes, checkpoint_bytes;
+  unsigned int calibration_steps;
+};
+
+/** Dimensionless numbers of a scene, from its parameters alone; before its
+    bodies are distributed. */
+PhysicsPlan plan_physics(Scene &scene);
+
+/**
+ * Sets the scene up and makes its first steps for about @p seconds of wall
+ * time. Steps: the rest of the run at the mean step of the second half of
+ * them, shrunk as the cells at an impact are flattened. Collective.
+ */
+CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
+                   const double seconds, MPI_Comm communicator);
+
+/** Bytes that the fields of one time take: as they are now, and when every
+    motion and stress has become an arbitrary number. This rank's share. */
+struct FieldSize
+{
+  double quiet, disturbed;
+};
+FieldSize field_size(const OutputMesh &mesh, const bool all_yield);
+
+nlohmann::ordered_json to_json(const PhysicsPlan &physics,
+                               const CostPlan &cost);
+std::string to_text(const PhysicsPlan &physics, const CostPlan &cost);
+} // namespace sabot
+
+#endif

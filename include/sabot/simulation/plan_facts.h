@@ -1,0 +1,15 @@
+#ifndef sabot_simulation_plan_facts_h
+#define sabot_simulation_plan_facts_h
+
+#include "sabot/simulation/plan.h"
+
+namespace sabot
+{
+/** Facts of all bodies; before they are distributed. */
+std::vector<BodyFacts> find_body_facts(Scene &scene);
+
+/** The pair with the largest relative speed, the faster body first. */
+ImpactFacts find_impact(const std::vector<BodyFacts> &bodies);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef sabot_simulation_resume_h
+#define sabot_simulation_resume_h
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** Where a run in a results folder can go on. */
+struct ResumePoint
+{
+  std::string checkpoint;            // the newest whole file
+  std::string scene;                 // its parameters, as a file
+  std::vector<std::string> warnings; // e.g. damaged files passed over
+};
+
+/**
+ * Find the newest valid checkpoint of a results folder and put its parameters
+ * into parameters.prm. InputError when there is none, when it was written on
+ * another number of ranks, or when @p overrides would change what the state
+ * depends on. Collective; throws on all ranks.
+ */
+ResumePoint find_resume_point(const std::string &folder,
+                              const std::vector<std::string> &overrides,
+                              MPI_Comm communicator);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,70 @@
+#ifndef sabot_simulation_zone_verdict_h
+#define sabot_simulation_zone_verdict_h
+
+#include "sabot/base/timers.h"
+#include "sabot/simulation/scene.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** A box of particles that replaces cells of a FEM body: where it lies and
+    which of its faces are inside that body, where the two are tied. */
+struct ZoneBox
+{
+  int zone, host; // bodies
+  std::array<double, 3> low, high, spacing;
+  std::array<bool, 3> tied_low, tied_high;
+
+  /** Reference distance of a point to the nearest tied face in spacings;
+      negative outside the zone. Huge where nothing is tied. */
+  double distance_from_tie(const std::array<double, 3> &x) const;
+};
+
+/** The zones of a scene. */
+std::vector<ZoneBox> find_zones(const Scene &scene);
+
+/** What a zone was needed for. Boxes are in the reference configuration. */
+struct ZoneVerdict
+{
+  std::string zone, host;
+  double spacing = 0.; // [m], mean
+  /** Least distance from the tie [spacings] that plastic strain above 1 % and
+      broken bonds reached, huge where there were none; negative: cells so far
+      outside the zone strained that much. */
+  double plastic_distance, bond_distance;
+  /** Smallest box with the same centre line that leaves two spacings between
+      them and the tie, what it holds, and what it would have saved. */
+  struct Box
+  {
+    std::array<double, 3> size; // [m]
+    double n_particles, seconds_saved;
+  };
+  Box for_both, for_bonds;
+  double n_particles;
+
+  /** Whether the tie held back what would have gone further: a larger zone
+      may be found too small as well. */
+  bool is_lower_bound() const
+  {
+    return bond_distance <= 0. || plastic_distance <= 0.;
+  }
+};
+
+/**
+ * Plastic strain and broken bonds only ever grow, so the end of a run tells how
+ * far they came. Seconds saved: particles left out at the measured cost of a
+ * particle-step, its searches and kernel updates, less the cells that would
+ * stand in their place. Collective.
+ */
+std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
+                                     const unsigned int n_steps,
+                                     MPI_Comm communicator);
+
+/** One line for the log. */
+std::string describe(const ZoneVerdict &verdict);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,83 @@
+#ifndef sabot_study_results_h
+#define sabot_study_results_h
+
+#include "sabot/output/history.h"
+#include "sabot/study/analysis.h"
+#include "sabot/study/chart.h"
+#include "sabot/study/study_file.h"
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** What one run of a study gave. */
+struct StudyOutcome
+{
+  std::string status = "missing", reason; // as in result.json
+  std::vector<double> quantities;         // per quantity; NaN: none
+  std::vector<std::string> units;
+  double cpu_seconds = std::numeric_limits<double>::quiet_NaN(),
+         wall_seconds = std::numeric_limits<double>::quiet_NaN(),
+         energy_residual = std::numeric_limits<double>::quiet_NaN();
+  double steps = 0., items = 0.; // cells and particles
+  std::string zone;              // its verdicts in words
+  /** Time and quantities; empty when there is no history. */
+  History::Table history;
+
+  bool is_complete() const { return status == "completed"; }
+};
+
+/** Read result.json and history.h5 of a run's folder; a folder without them
+    gives status "missing". */
+StudyOutcome read_outcome(const std::string &folder,
+                          const std::vector<StudyQuantity> &quantities);
+
+/** Against what a quantity's error counts. */
+struct ErrorReference
+{
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::string origin; // "measured (source)", ...
+};
+
+/** Runs that differ in the spacing only. */
+struct ConvergenceSeries
+{
+  std::size_t parameter, quantity;
+  std::string others; // what the other parameters are, in words
+  std::vector<double> spacing, value;
+  Convergence fit;
+};
+
+/** Everything that a report shows. */
+struct StudyResults
+{
+  StudyResults(const StudyFile &study, std::vector<StudyOutcome> outcomes);
+
+  const StudyFile &study;
+  std::vector<StudyOutcome> outcomes;           // per run
+  std::vector<ErrorReference> references;       // per quantity
+  std::vector<ConvergenceSeries> convergence;   // spacings only
+  std::vector<std::vector<Price>> prices;       // per quantity
+  std::vector<std::vector<std::size_t>> fronts; // per quantity: runs
+
+  /** Relative to the reference. */
+  double error(const std::size_t run, const std::size_t quantity) const;
+  /** The values of a run's parameters that are not the base's. */
+  std::string label(const std::size_t run) const;
+  std::string unit(const std::size_t quantity) const;
+  std::vector<Chart> charts() const;
+};
+
+/** Tables: study.csv and study.h5 (numbers of all runs, and their histories).
+    IOError. */
+void write_csv(const StudyResults &results, const std::string &file);
+void write_hdf5(const StudyResults &results, const std::string &file);
+/** One HTML page that needs no other file. IOError. */
+void write_report(const StudyResults &results, const std::vector<Chart> &charts,
+                  const std::string &file);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,277 @@
+#include "sabot/simulation/plan_facts.h"
+#include "sabot/simulation/zone_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace sabot
+{
+namespace
+{
+constexpr double never = std::numeric_limits<double>::max();
+
+std::string text(const char *const pattern, const double a, const double b = 0.)
+{
+  char buffer[300];
+  std::snprintf(buffer, sizeof(buffer), pattern, a, b);
+  return buffer;
+}
+
+/** Diffusivity of copper, the largest among structural metals [m^2/s]
+    (k / (rho c_p) = 400 / (8960 * 385)). */
+constexpr double largest_diffusivity = 1.2e-4;
+
+void judge_heat(const Scene &scene, PhysicsPlan &plan)
+{
+  double spacing = never;
+  for (const BodyFacts &body : plan.bodies)
+    spacing = std::min(spacing, body.spacing);
+  const double fourier =
+      largest_diffusivity * scene.settings.end_time / (spacing * spacing);
+  plan.numbers.push_back(
+      {"Fourier number", "alpha t / h^2, with alpha of copper", fourier,
+       fourier < 0.1
+           ? "heat stays where it arises: no conduction needed"
+           : "heat may spread over a spacing within the run: conduction may "
+             "matter, depending on the material"});
+}
+
+void judge_impact(const Scene &scene, PhysicsPlan &plan)
+{
+  const ImpactFacts &impact = plan.impact;
+  const BodyFacts &p = plan.bodies[impact.projectile],
+                  &t = plan.bodies[impact.target];
+  const double Zp = p.density * p.wave_speed, Zt = t.density * t.wave_speed;
+  // A rigid body is infinitely stiff, and no law of its own counts.
+  if (p.is_rigid && t.is_rigid)
+    return;
+  const double pressure = impact.speed * (p.is_rigid   ? Zt
+                                          : t.is_rigid ? Zp
+                                                       : Zp * Zt / (Zp + Zt));
+  const double K = p.is_rigid   ? t.bulk_modulus
+                   : t.is_rigid ? p.bulk_modulus
+                                : std::min(p.bulk_modulus, t.bulk_modulus);
+  plan.numbers.push_back(
+      {"impact pressure over bulk modulus", "v Z1 Z2 / (Z1 + Z2) / K",
+       pressure / K,
+       pressure / K < 0.05 ? "a constant bulk modulus will do"
+       : pressure / K < 0.3
+           ? "an equation of state changes the first wave by " +
+                 text("about %.0f %%; what follows less", 150. * pressure / K)
+           : "an equation of state is needed"});
+  if (pressure / K >= 0.3)
+    for (const BodyFacts *const body : {&p, &t})
+      if (!body->has_equation_of_state && !body->is_rigid)
+        plan.warnings.push_back("body \"" + body->name +
+                                "\" is shocked beyond a linear law, but its "
+                                "material \"" +
+                                body->material + "\" has no equation of state");
+
+  const double yield = std::min(p.yield_stress, t.yield_stress);
+  if (yield < never)
+  {
+    const double damage =
+        p.density * impact.speed * impact.speed / p.yield_stress;
+    if (p.yield_stress < never)
+      plan.numbers.push_back({"dynamic pressure over the projectile's yield",
+                              "rho v^2 / Y", damage,
+                              damage < 0.1 ? "the projectile stays elastic: a "
+                                             "rigid one would do"
+                              : damage < 1.
+                                  ? "the projectile yields a little"
+                                  : "the projectile deforms much and must be "
+                                    "deformable"});
+    else if (t.yield_stress < never)
+    {
+      const double over =
+          p.density * impact.speed * impact.speed / t.yield_stress;
+      if (over > 10.)
+        plan.warnings.push_back(
+            "body \"" + p.name + "\" never yields, though rho v^2 is " +
+            text("%.3g times the yield stress of what it hits; check that it "
+                 "is so much stronger",
+                 over));
+    }
+  }
+
+  for (const double component : t.velocity)
+    if (component != 0.)
+      return; // no target at rest with a far boundary and a rear face
+  // How far a wave gets, along the plate.
+  double far = 0.;
+  for (int d = 0; d < 3; ++d)
+    if (d != impact.axis)
+      far = std::max(far, 0.5 * (t.high[d] - t.low[d]));
+  const double trips = t.wave_speed * scene.settings.end_time / (2. * far);
+  plan.numbers.push_back(
+      {"round trips of waves to the far boundary", "c t / (2 L)", trips,
+       trips < 1. ? "the boundary is not felt: body \"" + t.name +
+                        text("\" may shrink to %.3g m across",
+                             2. * far * std::max(trips, 0.05))
+                  : "the boundary is felt: its size and support matter"});
+
+  const double thickness = t.high[impact.axis] - t.low[impact.axis];
+  const double transits =
+      impact.speed * scene.settings.end_time /
+      (thickness + p.high[impact.axis] - p.low[impact.axis]);
+  plan.numbers.push_back(
+      {"transits", "v t / (thickness + length of the projectile)", transits,
+       transits < 1.   ? "the run ends before the projectile could pass"
+       : transits < 3. ? "the projectile is watched until it has passed"
+                       : "the run goes on well beyond the passage"});
+}
+
+void judge_zones_before(const Scene &scene, PhysicsPlan &plan)
+{
+  for (const ZoneBox &zone : find_zones(scene))
+  {
+    const BodyFacts &body = plan.bodies[zone.zone];
+    if (!plan.impact.exists || body.failure_strain == never)
+      continue;
+    double half = never, spacing = 0.;
+    for (int d = 0; d < 3; ++d)
+      if (d != plan.impact.axis && zone.tied_low[d] && zone.tied_high[d])
+      {
+        half = std::min(half, 0.5 * (zone.high[d] - zone.low[d]));
+        spacing = std::max(spacing, zone.spacing[d]);
+      }
+    if (half == never)
+      continue;
+    // A hole opened from nothing in an incompressible sheet: a point at r came
+    // from sqrt(r^2 - a^2), and its effective strain is 2/sqrt(3) ln(r/r0).
+    const double a = plan.impact.radius;
+    const auto radius = [&](const double strain)
+    { return a / std::sqrt(1. - std::exp(-std::sqrt(3.) * strain)); };
+    const double needed = radius(body.failure_strain) + 2. * spacing;
+    plan.numbers.push_back(
+        {"zone \"" + body.name + "\" over the region of failure",
+         "half width / (a / sqrt(1 - exp(-sqrt(3) eps_f)) + 2 h)",
+         half / needed,
+         half >= needed
+             ? text("wide enough to hold broken bonds; plastic flow over 1 %% "
+                    "may reach %.3g m",
+                    std::min(radius(0.01), 1e3))
+             : text("too narrow: bonds may break at the tie; give it a half "
+                    "width of %.3g m",
+                    needed)});
+    if (half < needed)
+      plan.warnings.push_back("zone \"" + body.name +
+                              "\" is narrower than the region where bonds are "
+                              "expected to break");
+  }
+}
+
+void judge_switches(const Scene &scene, PhysicsPlan &plan)
+{
+  bool self_contact = false, contact = false;
+  for (const auto &coupling : scene.couplings)
+  {
+    self_contact = self_contact || coupling->kind() == "self-contact";
+    contact = contact || coupling->kind() == "contact";
+  }
+  for (const BodyFacts &body : plan.bodies)
+    if (body.is_spg && body.failure_strain < never && !self_contact)
+      plan.warnings.push_back("bonds of \"" + body.name +
+                              "\" may fail, but the scene has no self-contact: "
+                              "debris will pass through itself");
+  if (plan.impact.exists && !contact)
+    plan.warnings.push_back("bodies move towards each other, but the scene has "
+                            "no contact");
+  if (!plan.impact.exists)
+    return;
+  // Symmetry about the line of flight, by boxes and velocities.
+  const BodyFacts &p = plan.bodies[plan.impact.projectile];
+  std::string axes;
+  for (int d = 0; d < 3; ++d)
+  {
+    if (d == plan.impact.axis)
+      continue;
+    const double centre = 0.5 * (p.low[d] + p.high[d]);
+    bool symmetric = true;
+    for (const BodyFacts &body : plan.bodies)
+      symmetric = symmetric && body.velocity[d] == 0. &&
+                  std::abs(0.5 * (body.low[d] + body.high[d]) - centre) <
+                      1e-6 * (body.high[d] - body.low[d]);
+    if (symmetric)
+      axes += std::string(axes.empty() ? "" : " and ") + "xyz"[d];
+  }
+  if (!axes.empty())
+    plan.numbers.push_back({"planes of symmetry", "of boxes and velocities",
+                            axes.size() > 1 ? 2. : 1.,
+                            "the scene is its own mirror image in " + axes +
+                                ": a part of it would give the same"});
+}
+} // namespace
+
+PhysicsPlan plan_physics(Scene &scene)
+{
+  PhysicsPlan plan;
+  plan.bodies = find_body_facts(scene);
+  plan.impact = find_impact(plan.bodies);
+  judge_heat(scene, plan);
+  if (plan.impact.exists)
+    judge_impact(scene, plan);
+  judge_zones_before(scene, plan);
+  judge_switches(scene, plan);
+  return plan;
+}
+
+nlohmann::ordered_json to_json(const PhysicsPlan &physics, const CostPlan &cost)
+{
+  using nlohmann::ordered_json;
+  ordered_json plan;
+  plan["numbers"] = ordered_json::array();
+  for (const PlanNumber &n : physics.numbers)
+    plan["numbers"].push_back({{"name", n.name},
+                               {"formula", n.formula},
+                               {"value", n.value},
+                               {"verdict", n.verdict}});
+  plan["warnings"] = physics.warnings;
+  plan["bodies"] = ordered_json::object();
+  for (const CostPlan::Item &item : cost.items)
+    plan["bodies"][item.body] = {{item.kind, item.n},
+                                 {"neighbours", item.neighbours}};
+  plan["stable_step"] = cost.first_stable_step;
+  plan["limiter"] = cost.limiter;
+  plan["steps"] = cost.steps;
+  plan["seconds_per_step"] = cost.seconds_per_step;
+  plan["wall_seconds"] = cost.seconds;
+  plan["memory_bytes"] = cost.memory_bytes;
+  plan["output_bytes"] = cost.output_bytes;
+  plan["checkpoint_bytes"] = cost.checkpoint_bytes;
+  plan["calibration_steps"] = cost.calibration_steps;
+  return plan;
+}
+
+std::string to_text(const PhysicsPlan &physics, const CostPlan &cost)
+{
+  std::string out = "What the scene needs\n";
+  for (const PlanNumber &n : physics.numbers)
+    out += "  " + n.name + " = " + text("%.3g", n.value) + "  (" + n.formula +
+           ")\n      " + n.verdict + "\n";
+  for (const std::string &warning : physics.warnings)
+    out += "warning: " + warning + "\n";
+  out += "What it costs\n";
+  for (const CostPlan::Item &item : cost.items)
+    out += "  " + item.body + ": " + text("%.0f ", item.n) + item.kind +
+           (item.neighbours > 0.
+                ? text(" with %.1f neighbours each", item.neighbours)
+                : "") +
+           "\n";
+  out += "  stable step " + text("%.3g s", cost.first_stable_step) +
+         " at the start, limited by " + cost.limiter + "\n";
+  out += "  steps " +
+         text("%.0f, %.3g s each", cost.steps, cost.seconds_per_step) +
+         text(" (measured over the first %.0f)\n", cost.calibration_steps);
+  out += "  time " +
+         (cost.seconds < 120. ? text("%.0f s", cost.seconds)
+                              : text("%.1f minutes", cost.seconds / 60.)) +
+         " on this machine, as busy as it is now\n";
+  out += text("  memory %.0f MB, files %.1f MB", 1e-6 * cost.memory_bytes,
+              1e-6 * cost.output_bytes) +
+         text(", each checkpoint %.1f MB\n", 1e-6 * cost.checkpoint_bytes);
+  return out;
+}
+} // namespace sabot

@@ -1,0 +1,288 @@
+#include "sabot/simulation/zone_verdict.h"
+
+#include "sabot/base/quantity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace sabot
+{
+namespace
+{
+constexpr double strained = 0.01;
+/** Distance to keep between the tie and what must lie inside: about a kernel
+    radius. [spacings] */
+constexpr double margin = 2.;
+constexpr double nowhere = std::numeric_limits<double>::max();
+
+using Point = std::array<double, 3>;
+
+/** How far something came: least distance from the tie and extent. */
+struct Reach
+{
+  double distance = nowhere;
+  Point low{{nowhere, nowhere, nowhere}}, high{{-nowhere, -nowhere, -nowhere}};
+
+  void add(const ZoneBox &box, const Point &x)
+  {
+    distance = std::min(distance, box.distance_from_tie(x));
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d] = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+    }
+  }
+  void reduce(MPI_Comm communicator)
+  {
+    double values[7] = {distance, low[0],   low[1],  low[2],
+                        -high[0], -high[1], -high[2]};
+    MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_MIN, communicator);
+    distance = values[0];
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d] = values[1 + d];
+      high[d] = -values[4 + d];
+    }
+  }
+};
+
+const OutputField *find_field(const std::vector<OutputField> &fields,
+                              const std::string &name)
+{
+  for (const OutputField &field : fields)
+    if (field.name == name)
+      return &field;
+  return nullptr;
+}
+
+/** The box that holds @p reach, kept symmetric where both sides are tied. */
+std::pair<Point, Point> smallest_box(const ZoneBox &zone, const Reach &reach)
+{
+  Point low = zone.low, high = zone.high;
+  const bool empty = reach.distance == nowhere;
+  for (int d = 0; d < 3; ++d)
+  {
+    const double gap = margin * zone.spacing[d];
+    const double centre = 0.5 * (zone.low[d] + zone.high[d]);
+    // Nothing happened: a block of a few particles stays.
+    double down = empty ? centre - gap : reach.low[d] - gap,
+           up = empty ? centre + gap : reach.high[d] + gap;
+    if (zone.tied_low[d] && zone.tied_high[d])
+    {
+      const double half = std::max(centre - down, up - centre);
+      down = centre - half;
+      up = centre + half;
+    }
+    if (zone.tied_low[d])
+      low[d] = down;
+    if (zone.tied_high[d])
+      high[d] = up;
+  }
+  return {low, high};
+}
+
+double seconds_of(const Timers &timers, const std::string &name)
+{
+  const auto found = timers.all().find(name);
+  return found == timers.all().end() ? 0. : found->second.seconds;
+}
+} // namespace
+
+double ZoneBox::distance_from_tie(const Point &x) const
+{
+  double inside = nowhere, outside = 0.;
+  for (int d = 0; d < 3; ++d)
+    for (const bool upper : {false, true})
+    {
+      if (!(upper ? tied_high[d] : tied_low[d]))
+        continue;
+      const double depth =
+          (upper ? high[d] - x[d] : x[d] - low[d]) / spacing[d];
+      inside = std::min(inside, depth);
+      outside = std::max(outside, -depth);
+    }
+  return outside > 0. ? -outside : inside;
+}
+
+std::vector<ZoneBox> find_zones(const Scene &scene)
+{
+  // ParameterHandler's place in its tree is not part of its value.
+  auto &prm = const_cast<dealii::ParameterHandler &>(scene.prm);
+  const auto corners = [&](const std::string &body, Point &low, Point &high)
+  {
+    prm.enter_subsection("Bodies");
+    prm.enter_subsection(body);
+    const std::vector<double> centre = get_quantities(prm, "Centre"),
+                              size = get_quantities(prm, "Size");
+    prm.leave_subsection();
+    prm.leave_subsection();
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d] = centre[d] - 0.5 * size[d];
+      high[d] = centre[d] + 0.5 * size[d];
+    }
+  };
+  std::vector<ZoneBox> zones;
+  for (const auto &body : scene.bodies)
+  {
+    prm.enter_subsection("Bodies");
+    prm.enter_subsection(body->name);
+    std::string from;
+    double spacing = 0.;
+    if (prm.get("Discretization") == "SPG")
+    {
+      from = prm.get("Carve from");
+      spacing = get_quantity(prm, "Nodal spacing");
+    }
+    prm.leave_subsection();
+    prm.leave_subsection();
+    if (from.empty())
+      continue;
+    ZoneBox zone;
+    zone.zone = body->id;
+    zone.host = scene.body_index("Bodies/" + body->name, from);
+    Point host_low, host_high;
+    corners(body->name, zone.low, zone.high);
+    corners(from, host_low, host_high);
+    for (int d = 0; d < 3; ++d)
+    {
+      const double size = zone.high[d] - zone.low[d];
+      zone.spacing[d] = size / std::max(1., std::round(size / spacing));
+      const double slack = 1e-3 * zone.spacing[d];
+      zone.tied_low[d] = zone.low[d] > host_low[d] + slack;
+      zone.tied_high[d] = zone.high[d] < host_high[d] - slack;
+    }
+    zones.push_back(zone);
+  }
+  return zones;
+}
+
+std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
+                                     const unsigned int n_steps,
+                                     MPI_Comm communicator)
+{
+  std::vector<ZoneVerdict> verdicts;
+  double n_spg = 0., n_fem = 0.;
+  for (const auto &body : scene.bodies)
+  {
+    n_spg += body->step_timer_name() == "spg step" ? body->n_items() : 0;
+    n_fem += body->step_timer_name() == "fem step" ? body->n_items() : 0;
+  }
+  for (const ZoneBox &zone : find_zones(scene))
+  {
+    const Body &body = *scene.bodies[zone.zone];
+    Reach plastic, bonds;
+    const OutputMesh mesh = body.output_mesh();
+    const OutputField *const eps = find_field(mesh.point_fields,
+                                              "effective plastic strain"),
+                             *const broken = find_field(mesh.point_fields,
+                                                        "failed-bond fraction");
+    const auto reference = [](const Body &of, const std::size_t i)
+    {
+      const Vec X = of.nodes().reference_position[i];
+      return Point{{X[0], X[1], X[2]}};
+    };
+    for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+    {
+      if (eps && eps->values[i] > strained)
+        plastic.add(zone, reference(body, i));
+      if (broken && broken->values[i] > 0.)
+        bonds.add(zone, reference(body, i));
+    }
+    const Body &host = *scene.bodies[zone.host];
+    const OutputMesh cells = host.output_mesh();
+    if (const OutputField *const strain =
+            find_field(cells.cell_fields, "effective plastic strain"))
+      for (std::size_t c = 0; c < strain->values.size(); ++c)
+      {
+        if (!(strain->values[c] > strained))
+          continue;
+        Point centre{{0., 0., 0.}};
+        for (unsigned int a = 0; a < cells.nodes_per_cell; ++a)
+          for (int d = 0; d < 3; ++d)
+            centre[d] +=
+                reference(host,
+                          cells.connectivity[cells.nodes_per_cell * c + a])[d] /
+                cells.nodes_per_cell;
+        plastic.add(zone, centre);
+      }
+    plastic.reduce(communicator);
+    bonds.reduce(communicator);
+
+    ZoneVerdict verdict;
+    verdict.zone = body.name;
+    verdict.host = host.name;
+    verdict.spacing =
+        std::cbrt(zone.spacing[0] * zone.spacing[1] * zone.spacing[2]);
+    verdict.plastic_distance = plastic.distance;
+    verdict.bond_distance = bonds.distance;
+    verdict.n_particles = body.n_items();
+    Reach both = plastic;
+    if (bonds.distance < nowhere)
+    {
+      both.add(zone, bonds.low);
+      both.add(zone, bonds.high);
+    }
+    // What a cell of the host next to the zone is like.
+    const double cell_seconds =
+        n_fem > 0. ? seconds_of(timers, "fem step") / n_fem : 0.;
+    // All that grows with the number of particles.
+    double particle_seconds = 0.;
+    for (const char *const name :
+         {"spg step", "kernel update", "contact search", "self-contact",
+          "self-contact search"})
+      particle_seconds += seconds_of(timers, name) / std::max(1., n_spg);
+    const auto judge = [&](const Reach &reach)
+    {
+      const auto [low, high] = smallest_box(zone, reach);
+      ZoneVerdict::Box box;
+      box.n_particles = 1.;
+      double n_cells = 1., n_cells_now = 1.;
+      for (int d = 0; d < 3; ++d)
+      {
+        box.size[d] = high[d] - low[d];
+        box.n_particles *= std::round(box.size[d] / zone.spacing[d]) + 1.;
+        n_cells *= box.size[d] / zone.spacing[d];
+        n_cells_now *= (zone.high[d] - zone.low[d]) / zone.spacing[d];
+      }
+      box.seconds_saved =
+          (verdict.n_particles - box.n_particles) * particle_seconds -
+          (n_cells_now - n_cells) * cell_seconds;
+      return box;
+    };
+    verdict.for_both = judge(both);
+    verdict.for_bonds = judge(bonds);
+    if (n_steps == 0)
+      verdict.for_both.seconds_saved = verdict.for_bonds.seconds_saved = 0.;
+    verdicts.push_back(verdict);
+  }
+  return verdicts;
+}
+
+std::string describe(const ZoneVerdict &v)
+{
+  const auto came = [](const std::string &what, const double distance)
+  {
+    char text[120];
+    if (distance == nowhere)
+      return what + " nowhere";
+    std::snprintf(text, sizeof(text),
+                  distance < 0. ? "%s %.1f spacings beyond the tie"
+                                : "%s within %.1f spacings of the tie",
+                  what.c_str(), std::abs(distance));
+    return std::string(text);
+  };
+  char box[200];
+  std::snprintf(box, sizeof(box),
+                "; %s%.1f x %.1f x %.1f mm would hold both (%s %.3g s)",
+                v.is_lower_bound() ? "at least " : "", 1e3 * v.for_both.size[0],
+                1e3 * v.for_both.size[1], 1e3 * v.for_both.size[2],
+                v.for_both.seconds_saved >= 0. ? "saves" : "costs",
+                std::abs(v.for_both.seconds_saved));
+  return "zone " + v.zone + ": " +
+         came("plastic strain over 1 %", v.plastic_distance) + ", " +
+         came("broken bonds", v.bond_distance) + box;
+}
+} // namespace sabot

@@ -1,0 +1,201 @@
+#include "sabot/study/results.h"
+
+#include "sabot/base/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace sabot
+{
+namespace
+{
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+double number(const nlohmann::json &node, const std::string &key)
+{
+  return node.is_object() && node.contains(key) && node[key].is_number()
+             ? node[key].get<double>()
+             : nothing;
+}
+
+std::string zone_in_words(const nlohmann::json &zones)
+{
+  std::string text;
+  for (const auto &zone : zones.items())
+  {
+    const double distance = number(zone.value()["plastic_strain_over_0.01"],
+                                   "distance_from_tie_in_spacings");
+    char room[60] = "";
+    if (std::isfinite(distance))
+      std::snprintf(room, sizeof(room), " (%.1f spacings)", distance);
+    text += (text.empty() ? "" : "; ") + zone.key() + ": " +
+            zone.value().value("verdict", "") + room;
+  }
+  return text;
+}
+} // namespace
+
+StudyOutcome read_outcome(const std::string &folder,
+                          const std::vector<StudyQuantity> &quantities)
+{
+  StudyOutcome outcome;
+  outcome.quantities.assign(quantities.size(), nothing);
+  outcome.units.assign(quantities.size(), "");
+  std::ifstream file(folder + "/result.json");
+  const nlohmann::json r = nlohmann::json::parse(file, nullptr, false);
+  if (!file || !r.is_object())
+    return outcome;
+  outcome.status = r.value("status", "missing");
+  outcome.reason = r.value("reason", "");
+  outcome.cpu_seconds = number(r, "cpu_seconds");
+  outcome.wall_seconds = number(r, "wall_seconds");
+  outcome.energy_residual = number(r, "energy_residual_max");
+  outcome.steps = number(r, "steps");
+  for (const auto &body : r["bodies"].items())
+    for (const char *const kind : {"particles", "cells"})
+      if (body.value().contains(kind))
+        outcome.items += number(body.value(), kind);
+  if (r.contains("zone"))
+    outcome.zone = zone_in_words(r["zone"]);
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    if (r["quantities"].contains(quantities[q].name))
+    {
+      const auto &quantity = r["quantities"][quantities[q].name];
+      outcome.quantities[q] = number(quantity, "value");
+      outcome.units[q] = quantity.value("unit", "");
+    }
+  try
+  {
+    History history;
+    history.read(folder + "/history.h5");
+    outcome.history = history.tables["quantities"];
+  }
+  catch (const IOError &)
+  {
+    // A run without a history still has its result.
+  }
+  return outcome;
+}
+
+StudyResults::StudyResults(const StudyFile &study,
+                           std::vector<StudyOutcome> outcomes_)
+    : study(study), outcomes(std::move(outcomes_))
+{
+  const auto usable = [&](const std::size_t run, const std::size_t q)
+  {
+    return outcomes[run].is_complete() &&
+           std::isfinite(outcomes[run].quantities[q]);
+  };
+  for (std::size_t p = 0; p < study.parameters.size(); ++p)
+  {
+    if (study.parameters[p].role != StudyParameter::Role::spacing)
+      continue;
+    for (std::size_t q = 0; q < study.quantities.size(); ++q)
+    {
+      std::map<std::vector<std::size_t>, ConvergenceSeries> series;
+      for (std::size_t run = 0; run < study.runs.size(); ++run)
+      {
+        if (!usable(run, q))
+          continue;
+        std::vector<std::size_t> rest = study.runs[run].choice;
+        rest[p] = 0;
+        ConvergenceSeries &s = series[rest];
+        s.parameter = p;
+        s.quantity = q;
+        s.others.clear();
+        for (std::size_t o = 0; o < rest.size(); ++o)
+          if (o != p && rest[o] != 0)
+            s.others += (s.others.empty() ? "" : ", ") +
+                        study.parameters[o].name + " " +
+                        study.parameters[o].values[rest[o]].label;
+        s.spacing.push_back(
+            study.parameters[p].values[study.runs[run].choice[p]].number);
+        s.value.push_back(outcomes[run].quantities[q]);
+      }
+      for (auto &[rest, s] : series)
+        if (s.spacing.size() >= 2)
+        {
+          s.fit = fit_convergence(s.spacing, s.value);
+          convergence.push_back(s);
+        }
+    }
+  }
+  for (std::size_t q = 0; q < study.quantities.size(); ++q)
+  {
+    ErrorReference reference;
+    if (std::isfinite(study.quantities[q].measured))
+      reference = {study.quantities[q].measured,
+                   "measured" +
+                       (study.quantities[q].source.empty()
+                            ? std::string()
+                            : " (" + study.quantities[q].source + ")")};
+    else
+    {
+      for (const ConvergenceSeries &s : convergence)
+        if (s.quantity == q && s.others.empty() && s.fit.has_order)
+          reference = {s.fit.limit, "extrapolated to spacing 0"};
+      std::size_t dearest = 0;
+      bool found = false;
+      for (std::size_t run = 0; run < outcomes.size(); ++run)
+        if (usable(run, q) && (!found || outcomes[run].cpu_seconds >
+                                             outcomes[dearest].cpu_seconds))
+        {
+          dearest = run;
+          found = true;
+        }
+      if (reference.origin.empty() && found)
+        reference = {outcomes[dearest].quantities[q],
+                     "the dearest run (" + label(dearest) + ")"};
+    }
+    references.push_back(reference);
+
+    std::vector<PricedRun> priced;
+    std::vector<double> cost, errors;
+    for (std::size_t run = 0; run < outcomes.size(); ++run)
+    {
+      const bool good = usable(run, q);
+      priced.push_back({study.runs[run].choice, outcomes[run].cpu_seconds,
+                        good ? outcomes[run].quantities[q] : nothing});
+      cost.push_back(outcomes[run].cpu_seconds);
+      errors.push_back(good ? error(run, q) : nothing);
+    }
+    std::vector<std::size_t> n_values;
+    for (const StudyParameter &parameter : study.parameters)
+      n_values.push_back(parameter.values.size());
+    prices.push_back(price_list(priced, n_values));
+    fronts.push_back(pareto_front(cost, errors));
+  }
+}
+
+double StudyResults::error(const std::size_t run,
+                           const std::size_t quantity) const
+{
+  const double exact = references[quantity].value;
+  return std::abs(outcomes[run].quantities[quantity] - exact) /
+         std::abs(exact != 0. ? exact : 1.);
+}
+
+std::string StudyResults::label(const std::size_t run) const
+{
+  std::string text;
+  for (std::size_t p = 0; p < study.parameters.size(); ++p)
+  {
+    const std::size_t v = study.runs[run].choice[p];
+    if (v != 0)
+      text += (text.empty() ? "" : ", ") + study.parameters[p].name + " " +
+              study.parameters[p].values[v].label;
+  }
+  return text.empty() ? "base" : text;
+}
+
+std::string StudyResults::unit(const std::size_t quantity) const
+{
+  for (const StudyOutcome &outcome : outcomes)
+    if (!outcome.units[quantity].empty())
+      return outcome.units[quantity];
+  return "";
+}
+} // namespace sabot

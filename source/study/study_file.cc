@@ -1,0 +1,292 @@
+#include "sabot/study/study_file.h"
+
+#include "sabot/base/error.h"
+#include "sabot/base/hash.h"
+#include "sabot/base/parameter_file.h"
+#include "sabot/base/quantity.h"
+#include "sabot/simulation/run.h"
+#include "sabot/simulation/scene.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace sabot
+{
+namespace
+{
+namespace Patterns = dealii::Patterns;
+
+std::string trim(const std::string &text)
+{
+  const std::size_t first = text.find_first_not_of(" \t"),
+                    last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/** Parts between separators, trimmed; an empty text has none. */
+std::vector<std::string> split(const std::string &text, const char separator)
+{
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);)
+    parts.push_back(trim(part));
+  return parts;
+}
+
+/** SI value of the first quantity in a label, NaN when there is none. */
+double number_of(const std::string &label)
+{
+  const std::string first = trim(label.substr(0, label.find(',')));
+  for (int d = 0; d <= static_cast<int>(Dimension::angle); ++d)
+  {
+    const QuantityPattern pattern(static_cast<Dimension>(d));
+    if (!pattern.match(first))
+      continue;
+    dealii::ParameterHandler prm;
+    prm.declare_entry("value", first, pattern);
+    return get_quantity(prm, "value");
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string beside(const std::string &file, const std::string &name)
+{
+  const std::size_t slash = file.rfind('/');
+  return name.empty() || name[0] == '/' || slash == std::string::npos
+             ? name
+             : file.substr(0, slash + 1) + name;
+}
+
+StudyParameter read_parameter(const dealii::ParameterHandler &prm,
+                              const std::string &name, const std::string &file)
+{
+  const std::string path = "Parameters/" + name;
+  StudyParameter parameter;
+  parameter.name = name;
+  const std::string role = prm.get("Role");
+  parameter.role = role == "spacing"   ? StudyParameter::Role::spacing
+                   : role == "physics" ? StudyParameter::Role::physics
+                                       : StudyParameter::Role::knob;
+  parameter.entries = split(prm.get("Entries"), ';');
+  if (parameter.entries.empty())
+    throw InputError(path + "/Entries",
+                     "names no entry of the scene; write for example "
+                     "\"Bodies/core/Nodal spacing\"");
+  const std::vector<std::string> labels = split(prm.get("Labels"), ';');
+  for (const std::string &text : split(prm.get("Values"), ';'))
+  {
+    StudyParameter::Value value;
+    const std::vector<std::string> parts = split(text, '|');
+    if (parts.size() != 1 && parts.size() != parameter.entries.size())
+      throw InputError(path + "/Values",
+                       "\"" + text + "\" has " + std::to_string(parts.size()) +
+                           " parts for " +
+                           std::to_string(parameter.entries.size()) +
+                           " entries; give one for all or one for each");
+    for (std::size_t e = 0; e < parameter.entries.size(); ++e)
+    {
+      const std::string &part = parts.size() == 1 ? parts[0] : parts[e];
+      value.text.push_back(parameter.entries[e] == "Scene" ? beside(file, part)
+                                                           : part);
+    }
+    value.label = parts[0];
+    if (parameter.values.size() < labels.size())
+      value.label = labels[parameter.values.size()];
+    value.number = number_of(value.label);
+    parameter.values.push_back(value);
+  }
+  if (parameter.values.empty())
+    throw InputError(path + "/Values", "lists no value");
+  if (!labels.empty() && labels.size() != parameter.values.size())
+    throw InputError(path + "/Labels",
+                     std::to_string(labels.size()) + " labels for " +
+                         std::to_string(parameter.values.size()) + " values");
+  if (parameter.role == StudyParameter::Role::spacing)
+    for (const StudyParameter::Value &value : parameter.values)
+      if (!(value.number > 0.))
+        throw InputError(path + "/Values", "\"" + value.label +
+                                               "\" is not a spacing; use "
+                                               "lengths or another role");
+  return parameter;
+}
+} // namespace
+
+void StudyFile::declare(dealii::ParameterHandler &prm,
+                        const std::vector<std::string> &parameter_names,
+                        const std::vector<std::string> &quantity_names)
+{
+  prm.declare_entry("Title", "", Patterns::Anything(),
+                    "What the study shows; one line.");
+  prm.declare_entry("Scene", "", Patterns::Anything(),
+                    "The scene that is varied, beside the study's file.");
+  prm.declare_entry("Fixed entries", "", Patterns::Anything(),
+                    "Entries set in every run: \"Section/Name=value\", "
+                    "separated by semicolons.");
+  prm.declare_entry("Combination", "one at a time",
+                    Patterns::Selection("one at a time|grid"),
+                    "one at a time: each value with the first values of all "
+                    "other parameters; grid: every combination.");
+  prm.declare_entry("Processes", "1", Patterns::Integer(1, 1024),
+                    "Runs at the same time.");
+  prm.declare_entry("Ranks per run", "1", Patterns::Integer(1, 4096),
+                    "MPI ranks of each run.");
+  prm.enter_subsection("Parameters");
+  for (const std::string &name : parameter_names)
+  {
+    prm.enter_subsection(name);
+    prm.declare_entry("Entries", "", Patterns::Anything(),
+                      "Paths of the scene's entries that take the values, "
+                      "separated by semicolons; \"Scene\" stands for the "
+                      "scene's file.");
+    prm.declare_entry("Values", "", Patterns::Anything(),
+                      "Values, separated by semicolons, the base first; a "
+                      "vertical bar separates those of several entries.");
+    prm.declare_entry("Labels", "", Patterns::Anything(),
+                      "Names of the values in tables and charts, separated by "
+                      "semicolons; none: the values themselves.");
+    prm.declare_entry("Role", "knob",
+                      Patterns::Selection("knob|spacing|physics"),
+                      "knob: trades speed for accuracy; spacing: sizes over "
+                      "which convergence is judged; physics: changes the "
+                      "problem.");
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+  prm.enter_subsection("Quantities");
+  for (const std::string &name : quantity_names)
+  {
+    prm.enter_subsection(name);
+    prm.declare_entry("Measured value", "nan", Patterns::Anything(),
+                      "Of the experiment, with unit; nan: none.");
+    prm.declare_entry("Source", "", Patterns::Anything(),
+                      "Where the measured value comes from.");
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+}
+
+StudyFile::StudyFile(const std::string &file_name,
+                     const std::vector<std::string> &overrides)
+{
+  const ParameterFile file(file_name, overrides);
+  try
+  {
+    read(file);
+    list_runs();
+  }
+  catch (const InputError &e)
+  {
+    // What is wrong in the scene's own files says so already.
+    if (e.parameter.empty() ||
+        std::string(e.what()).find(".prm") != std::string::npos ||
+        std::string(e.what()).compare(0, 5, "--set") == 0)
+      throw;
+    throw InputError("", file.origin(e.parameter) + ": " + e.parameter + ": " +
+                             e.what());
+  }
+}
+
+void StudyFile::read(const ParameterFile &file)
+{
+  const std::vector<std::string> names = file.subsections("Parameters"),
+                                 quantity_names =
+                                     file.subsections("Quantities");
+  dealii::ParameterHandler prm;
+  declare(prm, names, quantity_names);
+  file.parse_into(prm);
+  title = prm.get("Title");
+  if (prm.get("Scene").empty())
+    throw InputError("Scene", "a study needs the file of a scene");
+  scene = beside(file.file_name, prm.get("Scene"));
+  is_grid = prm.get("Combination") == "grid";
+  n_processes = prm.get_integer("Processes");
+  n_ranks = prm.get_integer("Ranks per run");
+  fixed = split(prm.get("Fixed entries"), ';');
+  for (const std::string &name : names)
+  {
+    prm.enter_subsection("Parameters");
+    prm.enter_subsection(name);
+    parameters.push_back(read_parameter(prm, name, file.file_name));
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+  if (quantity_names.empty())
+    throw InputError("Quantities",
+                     "the study looks at no quantity of the scene");
+  for (const std::string &name : quantity_names)
+  {
+    prm.enter_subsection("Quantities");
+    prm.enter_subsection(name);
+    StudyQuantity quantity;
+    quantity.name = name;
+    quantity.source = prm.get("Source");
+    const std::string measured = prm.get("Measured value");
+    if (measured != "nan")
+    {
+      quantity.measured = number_of(measured);
+      if (quantity.measured != quantity.measured)
+        throw InputError("Quantities/" + name + "/Measured value",
+                         "\"" + measured + "\" is not a number with a unit");
+    }
+    quantities.push_back(quantity);
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+}
+
+void StudyFile::list_runs()
+{
+  std::vector<std::vector<std::size_t>> choices = {
+      std::vector<std::size_t>(parameters.size(), 0)};
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+  {
+    const std::size_t n = is_grid ? choices.size() : 1;
+    for (std::size_t v = 1; v < parameters[p].values.size(); ++v)
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        choices.push_back(choices[i]);
+        choices.back()[p] = v;
+      }
+  }
+  for (const std::vector<std::size_t> &choice : choices)
+  {
+    StudyRun run;
+    run.choice = choice;
+    run.scene = scene;
+    run.overrides = fixed;
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      for (std::size_t e = 0; e < parameters[p].entries.size(); ++e)
+      {
+        const std::string &entry = parameters[p].entries[e],
+                          &text = parameters[p].values[choice[p]].text[e];
+        if (entry == "Scene")
+          run.scene = text;
+        else
+          run.overrides.push_back(entry + "=" + text);
+      }
+    // The expanded parameters, as the run itself will write them.
+    const ParameterFile scene_file(run.scene, run.overrides);
+    dealii::ParameterHandler prm;
+    Scene::declare(prm, &scene_file);
+    scene_file.parse_into(prm);
+    std::ostringstream text;
+    text << version() << "\n";
+    print_expanded(prm, text);
+    run.key = sha256(text.str()).substr(0, 16);
+    const std::vector<std::string> known =
+        split_names(prm.get("List of quantities"));
+    for (const StudyQuantity &quantity : quantities)
+      if (std::find(known.begin(), known.end(), quantity.name) == known.end())
+        throw InputError(
+            "Quantities/" + quantity.name,
+            "scene \"" + run.scene + "\" has no quantity of this name" +
+                (known.empty()
+                     ? std::string()
+                     : "; did you mean \"" +
+                           nearest_name(quantity.name, known) + "\"?"));
+    runs.push_back(run);
+  }
+}
+} // namespace sabot
