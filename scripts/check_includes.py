@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
-        "bodies/spg", "couplings", "integrator", "output", "simulation",
+        "bodies/rigid", "bodies/spg", "couplings", "integrator", "output", "simulation",
         "study", "verification", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
 # Folder: folders or single headers that it may include, besides its own.
@@ -21,6 +21,7 @@ ALLOWED = {
     "geometry": {"base", "kernels"},
     "bodies": {"base", "kernels", "materials"},
     "bodies/fem": {"base", "kernels", "materials", "geometry", "bodies"},
+    "bodies/rigid": {"base", "kernels", "materials", "geometry", "bodies"},
     "bodies/spg": {"base", "kernels", "materials", "geometry", "bodies"},
     "couplings": {"base", "kernels", BODY},
     "integrator": {"base", "kernels", BODY, COUPLING},

@@ -54,6 +54,8 @@ ExitCode run_scene(const Arguments &arguments, const bool check_only)
     {
       for (const std::string &warning : scene.warnings)
         std::cout << "warning: " << warning << "\n";
+      for (const std::string &note : scene.notes)
+        std::cout << note << "\n";
       std::cout << arguments.scene << " is valid:";
       for (const auto &body : scene.bodies)
         std::cout << " " << body->name << " (" << body->n_items() << " "

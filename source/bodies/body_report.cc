@@ -40,7 +40,8 @@ void add_material_fields(std::vector<OutputField> &fields,
     }
 }
 
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator)
+Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                       const std::vector<char> *const left_out)
 {
   ExactSum mass, momentum[3], kinetic;
   double top[6];
@@ -48,6 +49,8 @@ Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator)
             std::numeric_limits<double>::lowest());
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
+    if (left_out != nullptr && (*left_out)[i])
+      continue;
     const double m = nodes.lumped_mass[i];
     const Vec v = nodes.velocity[i], x = nodes.position[i];
     mass.add(m);
@@ -65,8 +68,9 @@ Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator)
   Measures measures = {{"mass", "kg", mass.value()}};
   const char axis[] = {'x', 'y', 'z'};
   for (int d = 0; d < 3; ++d)
-    measures.push_back({std::string("velocity ") + axis[d], "m/s",
-                        momentum[d].value() / mass.value()});
+    measures.push_back(
+        {std::string("velocity ") + axis[d], "m/s",
+         mass.value() > 0. ? momentum[d].value() / mass.value() : 0.});
   measures.push_back({"kinetic energy", "J", kinetic.value()});
   for (int d = 0; d < 3; ++d)
   {

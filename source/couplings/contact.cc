@@ -41,8 +41,12 @@ void Contact::update_search(const unsigned int, const double dt)
 {
   // Both sides move: candidates hold until together they covered the skin.
   travelled += 2. * largest_speed(bodies, communicator) * dt;
-  if (travelled > skin)
+  unsigned int version = 0;
+  for (const Body *body : bodies)
+    version += body->contact_surface_version();
+  if (travelled > skin || version != surface_version)
     search();
+  surface_version = version;
 }
 
 void Contact::search()
@@ -116,7 +120,8 @@ void Contact::search()
       face_slots.push_back(slots);
     }
     group.last_face = face_slots.size();
-    group.stiffness = options.stiffness_scale * modulus * group.spacing;
+    group.stiffness =
+        c[first].share * options.stiffness_scale * modulus * group.spacing;
     groups.push_back(group);
   }
   normal_force.assign(halo.size(), Vec{});
@@ -264,6 +269,7 @@ void Contact::visit_state(StateVisitor &visitor)
   visitor.visit_value("contact work", contact_work);
   visitor.visit_value("friction work", friction_work);
   visitor.visit_value("travelled", travelled);
+  visitor.visit_value("surface version", surface_version);
   visitor.visit_value("penetration", penetration_over_spacing);
   // Candidates were found where the bodies were at the last search, so they
   // cannot be found anew. Slots depend on nothing but the nodes.

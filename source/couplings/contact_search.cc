@@ -177,7 +177,7 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
   {
     const Body &body = *bodies[pair.nodes_of];
     const NodalState &nodes = body.nodes();
-    const auto try_node = [&](const std::size_t i)
+    const auto try_node = [&](const std::size_t i, const double share)
     {
       const Vec x = nodes.position[i];
       if (!face_box[pair.faces_of].contains(x))
@@ -196,17 +196,21 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
         if (boxes[f].contains(x) && !is_farther(x, result.faces[f].x, reach) &&
             project_on_face(x, result.faces[f].x).distance_square <
                 reach * reach)
-          candidates.push_back({key, f, memory});
+          candidates.push_back({key, f, share, memory});
     };
     if (pair.loose_nodes_only)
     {
       for (const std::size_t i : body.debris().nodes)
         if (nodes.inertia[i] > 0.) // followers stay with their leaders
-          try_node(i);
+          try_node(i, 1.);
     }
     else
-      for (const std::size_t i : surfaces[pair.nodes_of].nodes)
-        try_node(i);
+    {
+      const ContactSurface &surface = surfaces[pair.nodes_of];
+      for (std::size_t k = 0; k < surface.nodes.size(); ++k)
+        try_node(surface.nodes[k],
+                 surface.node_share.empty() ? 1. : surface.node_share[k]);
+    }
   }
   result.candidates = gather_all(candidates, communicator);
   std::sort(result.candidates.begin(), result.candidates.end(),

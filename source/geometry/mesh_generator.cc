@@ -95,8 +95,8 @@ HexMesh make_graded_box(const BoxSpecification &box)
   }
   if (!zone_inside)
     throw InputError(box.zone_path + "/Size",
-                     "the zone reaches outside the body that it is carved "
-                     "from; make it smaller or move its centre");
+                     "the zone reaches outside the body that it is "
+                     "part of; make it smaller or move its centre");
 
   // Steps, and which cells stay: deal.II leaves out cells of this material id.
   std::vector<std::vector<double>> steps(3);
@@ -119,6 +119,7 @@ HexMesh make_graded_box(const BoxSpecification &box)
           inside = inside && std::abs(middle - box.zone_centre[d]) <
                                  0.5 * box.zone_size[d];
         }
+        inside = inside && box.zone_is_cut;
         ids[i][j][k] = inside ? dealii::numbers::invalid_material_id : 0;
         n_left += !inside;
       }
@@ -147,13 +148,31 @@ HexMesh make_graded_box(const BoxSpecification &box)
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
                       const std::array<double, 3> &centre,
-                      const double cell_size)
+                      const double cell_size, const unsigned int n_cuts,
+                      const CylinderGrading &grading)
 {
-  // A core of n x n cells, bulged so that its corners lie at 0.55 r and its
-  // edge middles a little further out than a square's, and m rings.
+  // A core of n x n cells, bulged so that its corners lie at the core radius
+  // and its edge middles a little further out than a square's, and rings.
+  const double core =
+      grading.core_radius > 0. ? grading.core_radius / radius : 0.55;
   const unsigned int n =
-      2 * std::max(1u, n_intervals(0.4 * radius * std::sqrt(2.), cell_size));
-  const unsigned int m = n_intervals(0.5 * radius, cell_size);
+      2 * std::max(1u, n_intervals(0.4 / 0.55 * core * radius * std::sqrt(2.),
+                                   cell_size));
+  // Heights of the rings over the thickness of the shell.
+  std::vector<double> heights;
+  const double shell = radius * (1. - core * 0.5 / 0.55);
+  if (grading.growth_ratio > 1.)
+    for (const double size :
+         growing_sizes(shell, cell_size, grading.coarsest_cell_size,
+                       grading.growth_ratio))
+      heights.push_back((heights.empty() ? 0. : heights.back()) + size / shell);
+  else
+  {
+    const unsigned int n_rings = n_intervals(shell, cell_size);
+    for (unsigned int ring = 1; ring <= n_rings; ++ring)
+      heights.push_back(double(ring) / n_rings);
+  }
+  heights.back() = 1.;
   const double pi = 3.14159265358979323846;
   std::vector<dealii::Point<2>> points;
   std::vector<dealii::CellData<2>> cells;
@@ -161,7 +180,7 @@ HexMesh make_cylinder(const double radius, const double length,
   const auto core_point = [&](const double s, const double t)
   {
     // [-1,1]^2 to a square with bulged edges.
-    const double corner = 0.55 / std::sqrt(2.);
+    const double corner = core / std::sqrt(2.);
     const double x = corner * s * (1. + 0.12 * (1. - t * t)),
                  y = corner * t * (1. + 0.12 * (1. - s * s));
     return dealii::Point<2>(x, y);
@@ -191,9 +210,8 @@ HexMesh make_cylinder(const double radius, const double length,
     inner.push_back(core_index(0, n - j));
   const unsigned int n_rim = inner.size();
   std::vector<unsigned int> last = inner;
-  for (unsigned int ring = 1; ring <= m; ++ring)
+  for (const double f : heights)
   {
-    const double f = double(ring) / m;
     std::vector<unsigned int> next(n_rim);
     for (unsigned int a = 0; a < n_rim; ++a)
     {
@@ -221,6 +239,26 @@ HexMesh make_cylinder(const double radius, const double length,
     p *= scale;
 
   dealii::GridTools::invert_all_negative_measure_cells(points, cells);
+  // Both planes of symmetry are lines of the mesh (n is even).
+  cells.erase(std::remove_if(cells.begin(), cells.end(),
+                             [&](const dealii::CellData<2> &cell)
+                             {
+                               dealii::Point<2> middle;
+                               for (const unsigned int v : cell.vertices)
+                                 middle += 0.25 * points[v];
+                               return (n_cuts > 0 && middle[0] < 0.) ||
+                                      (n_cuts > 1 && middle[1] < 0.);
+                             }),
+              cells.end());
+  if (n_cuts > 0)
+  {
+    for (dealii::Point<2> &p : points) // lines exactly in the planes
+      for (unsigned int d = 0; d < 2; ++d)
+        if (std::abs(p[d]) < 1e-12 * radius)
+          p[d] = 0.;
+    dealii::SubCellData none;
+    dealii::GridTools::delete_unused_vertices(points, cells, none);
+  }
   dealii::Triangulation<2> disc;
   disc.create_triangulation(points, cells, dealii::SubCellData());
   dealii::Triangulation<3> mesh;
@@ -229,10 +267,12 @@ HexMesh make_cylinder(const double radius, const double length,
   for (const auto &face : mesh.active_face_iterators())
     if (face->at_boundary())
     {
-      const double z = face->center()[2];
-      face->set_boundary_id(z < 1e-9 * length          ? 0
-                            : z > length * (1. - 1e-9) ? 1
-                                                       : 2);
+      const dealii::Point<3> p = face->center();
+      face->set_boundary_id(p[2] < 1e-9 * length                           ? 0
+                            : p[2] > length * (1. - 1e-9)                  ? 1
+                            : n_cuts > 0 && std::abs(p[0]) < 1e-9 * radius ? 3
+                            : n_cuts > 1 && std::abs(p[1]) < 1e-9 * radius ? 4
+                                                                           : 2);
     }
   // A cyclic permutation of the axes keeps cells right-handed.
   dealii::GridTools::transform(

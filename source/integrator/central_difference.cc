@@ -42,14 +42,21 @@ void CentralDifference::impose_velocities()
     coupling->impose_kinematics();
 }
 
+void CentralDifference::accumulate_work(const double half_dt)
+{
+  for (auto &body : bodies)
+    body->accumulate_work(half_dt);
+  for (auto &coupling : couplings)
+    coupling->accumulate_work(half_dt);
+}
+
 void CentralDifference::advance(const double dt)
 {
   kick(0.5 * dt); // v(n+1/2)
   impose_velocities();
   {
     const auto timer = timers.scope("coupling work");
-    for (auto &coupling : couplings)
-      coupling->accumulate_work(0.5 * dt);
+    accumulate_work(0.5 * dt);
   }
   {
     const auto timer = timers.scope("integrate");
@@ -64,8 +71,7 @@ void CentralDifference::advance(const double dt)
   compute_forces(dt);
   {
     const auto timer = timers.scope("coupling work");
-    for (auto &coupling : couplings)
-      coupling->accumulate_work(0.5 * dt);
+    accumulate_work(0.5 * dt);
   }
   kick(0.5 * dt); // v(n+1)
   impose_velocities();

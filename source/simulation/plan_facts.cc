@@ -76,6 +76,7 @@ std::vector<BodyFacts> find_body_facts(Scene &scene)
     prm.enter_subsection(body->name);
     f.material = prm.get("Material");
     f.is_spg = prm.get("Discretization") == "SPG";
+    f.is_rigid = prm.get("Discretization") == "rigid";
     const std::vector<double> v = get_quantities(prm, "Initial velocity");
     f.velocity = {{v[0], v[1], v[2]}};
     f.failure_strain =
@@ -84,6 +85,7 @@ std::vector<BodyFacts> find_body_facts(Scene &scene)
     if (f.failure_strain >= 1e10)
       f.failure_strain = never;
     f.spacing = get_quantity(prm, f.is_spg ? "Nodal spacing" : "Cell size");
+    const bool is_from_file = get_or(prm, "Geometry", "") == "file";
     f.is_clamped = !get_or(prm, "Clamped faces", "").empty();
     prm.leave_subsection();
     prm.leave_subsection();
@@ -97,7 +99,7 @@ std::vector<BodyFacts> find_body_facts(Scene &scene)
     f.bulk_modulus = material->bulk_modulus();
     f.shear_modulus = material->shear_modulus();
     f.wave_speed = material->sound_speed();
-    f.yield_stress = find_yield_stress(*material);
+    f.yield_stress = f.is_rigid ? never : find_yield_stress(*material);
     f.has_equation_of_state =
         !eos.empty() && eos.find("ulk modulus") == std::string::npos;
     f.low = {{never, never, never}};
@@ -108,6 +110,10 @@ std::vector<BodyFacts> find_body_facts(Scene &scene)
         f.low[d] = std::min(f.low[d], x[d]);
         f.high[d] = std::max(f.high[d], x[d]);
       }
+    // Nobody told it: the edge of as many cubes that fill the same box.
+    if (is_from_file)
+      f.spacing = std::cbrt((f.high[0] - f.low[0]) * (f.high[1] - f.low[1]) *
+                            (f.high[2] - f.low[2]) / body->n_items());
     facts.push_back(f);
   }
   return facts;

@@ -44,8 +44,15 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
   const BodyFacts &p = plan.bodies[impact.projectile],
                   &t = plan.bodies[impact.target];
   const double Zp = p.density * p.wave_speed, Zt = t.density * t.wave_speed;
-  const double pressure = impact.speed * Zp * Zt / (Zp + Zt);
-  const double K = std::min(p.bulk_modulus, t.bulk_modulus);
+  // A rigid body is infinitely stiff, and no law of its own counts.
+  if (p.is_rigid && t.is_rigid)
+    return;
+  const double pressure = impact.speed * (p.is_rigid   ? Zt
+                                          : t.is_rigid ? Zp
+                                                       : Zp * Zt / (Zp + Zt));
+  const double K = p.is_rigid   ? t.bulk_modulus
+                   : t.is_rigid ? p.bulk_modulus
+                                : std::min(p.bulk_modulus, t.bulk_modulus);
   plan.numbers.push_back(
       {"impact pressure over bulk modulus", "v Z1 Z2 / (Z1 + Z2) / K",
        pressure / K,
@@ -56,7 +63,7 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
            : "an equation of state is needed"});
   if (pressure / K >= 0.3)
     for (const BodyFacts *const body : {&p, &t})
-      if (!body->has_equation_of_state)
+      if (!body->has_equation_of_state && !body->is_rigid)
         plan.warnings.push_back("body \"" + body->name +
                                 "\" is shocked beyond a linear law, but its "
                                 "material \"" +

@@ -264,11 +264,12 @@ Run::Balance Run::balance_energy()
   for (const auto &coupling : scene.couplings)
     coupling->add_energies(e);
   ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
-                    &e.contact, &e.friction, &e.external, &e.plastic_work},
+                    &e.contact, &e.friction, &e.eroded, &e.external,
+                    &e.plastic_work},
                    communicator);
   ExactSum total = e.kinetic;
-  for (const ExactSum *part :
-       {&e.internal, &e.stabilization, &e.hourglass, &e.contact, &e.friction})
+  for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
+                               &e.contact, &e.friction, &e.eroded})
     total.add(*part);
   total.subtract(e.external);
   Balance balance;
@@ -286,6 +287,7 @@ Run::Balance Run::balance_energy()
             {"hourglass", "J", e.hourglass.value()},
             {"contact", "J", e.contact.value()},
             {"friction", "J", e.friction.value()},
+            {"eroded", "J", e.eroded.value()},
             {"external", "J", e.external.value()},
             {"plastic work", "J", e.plastic_work.value()},
             {"total", "J", balance.total},
@@ -302,6 +304,10 @@ double Run::momentum_residual() const
     const Measures measures = body->measure();
     for (int d = 0; d < 3; ++d)
       change[d] += measures[0].value * measures[1 + d].value;
+    for (const Measure &m : measures)
+      for (int d = 0; d < 3; ++d)
+        if (m.name == std::string("eroded momentum ") + "xyz"[d])
+          change[d] += m.value;
   }
   return momentum_scale > 0.
              ? std::sqrt(change[0] * change[0] + change[1] * change[1] +

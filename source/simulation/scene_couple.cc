@@ -1,5 +1,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/quantity.h"
+#include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
@@ -90,8 +92,11 @@ void Scene::build_couplings()
         const int leader = body_index(path + "/Leader", prm.get("Leader"));
         if (follower == leader)
           throw InputError(path + "/Leader", "a body cannot be tied to itself");
-        if (bodies[leader]->item_name() != "cells")
+        if (dynamic_cast<FemBody *>(bodies[leader].get()) == nullptr)
           throw InputError(path + "/Leader", "the leader must be a FEM body");
+        if (dynamic_cast<RigidBody *>(bodies[follower].get()) != nullptr)
+          throw InputError(path + "/Follower",
+                           "a rigid body cannot follow another");
         tied.insert({follower, leader});
         ties.push_back(std::make_unique<Tie>(name, pointers, follower, leader,
                                              get_quantity(prm, "Tolerance"),

@@ -1,5 +1,6 @@
 #include "sabot/base/quantity.h"
 #include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/simulation/scene.h"
 
@@ -51,16 +52,89 @@ void declare_top(ParameterHandler &prm)
                     "Names of the quantities of interest in result.json.");
 }
 
+void declare_shape(ParameterHandler &prm, const std::string &geometry)
+{
+  const QuantityPattern length(Dimension::length, 1e-9, 1e3);
+  if (geometry == "box")
+  {
+    prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
+                      QuantityPattern(Dimension::length, 3, 3, 1e-9, 1e3),
+                      "Edge lengths of the box.");
+    return;
+  }
+  if (geometry == "file")
+  {
+    prm.declare_entry("Mesh file", "", Patterns::Anything(),
+                      "Hexahedra from gmsh (.msh), Abaqus (.inp) or VTK "
+                      "(.vtk), looked up beside the parameter file; its origin "
+                      "is put at the centre. Faces are named by the file's "
+                      "boundary ids.");
+    prm.declare_entry("Mesh unit", "1 m", length,
+                      "Length of a unit of the file's coordinates.");
+    prm.declare_entry("Mesh material id", "-1", Patterns::Integer(-1),
+                      "Only cells with this material id of the file; -1: all.");
+    return;
+  }
+  prm.declare_entry("Radius", "1 mm", length,
+                    "Radius of the " + geometry + ".");
+  if (geometry == "sphere")
+    return;
+  if (geometry == "projectile")
+  {
+    prm.declare_entry("Length", "1 mm", length,
+                      "Length of the shaft, without the nose.");
+    prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z|-x|-y|-z"),
+                      "Where the nose points.");
+    prm.declare_entry("Nose", "ogive",
+                      Patterns::Selection("ogive|conical|spherical"),
+                      "Shape of the nose; the ogive is tangent to the shaft.");
+    prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
+    return;
+  }
+  prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
+  prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z"),
+                    "Direction of the cylinder's axis.");
+  prm.declare_entry("Core radius", "0 m",
+                    QuantityPattern(Dimension::length, 0., 1e3),
+                    "Radius of the middle part that has cells of the cell "
+                    "size; 0: 0.55 of the radius.");
+  prm.declare_entry("Growth ratio", "1",
+                    QuantityPattern(Dimension::none, 1., 3.),
+                    "Thickness of one ring of cells over the last, outwards.");
+  prm.declare_entry("Coarsest cell size", "1 km", length,
+                    "Rings grow up to this thickness.");
+  prm.declare_entry("Sector", "full", Patterns::Selection("full|half|quarter"),
+                    "Part of the cylinder that is modelled: half keeps the "
+                    "positive side of the axis that follows the cylinder's "
+                    "(x after z), quarter that of the other one, too. The cut "
+                    "planes are called as a box's faces, e.g. -x, -y.");
+}
+
+/** The names of a geometry's faces. */
+std::string face_names(const std::string &geometry)
+{
+  return geometry == "box"        ? "-x, +x, -y, +y, -z, +z"
+         : geometry == "cylinder" ? "lower, upper, side and the cut planes of "
+                                    "a sector"
+         : geometry == "sphere"   ? "surface"
+         : geometry == "projectile" ? "end, side"
+                                    : "the boundary ids of the file";
+}
+
 void declare_body(ParameterHandler &prm, const std::string &discretization,
                   const std::string &geometry)
 {
-  prm.declare_entry("Discretization", "FEM", Patterns::Selection("FEM|SPG"),
-                    "FEM: one-point hexahedra; SPG: smoothed-particle-Galerkin "
-                    "particles.");
+  prm.declare_entry("Discretization", "FEM",
+                    Patterns::Selection("FEM|SPG|rigid"),
+                    "FEM: hexahedra; SPG: smoothed-particle-Galerkin "
+                    "particles; rigid: hexahedra that do not deform.");
   prm.declare_entry(
       "Geometry", "box",
-      Patterns::Selection(discretization == "SPG" ? "box" : "box|cylinder"),
-      "Shape of the body.");
+      Patterns::Selection(discretization == "SPG"
+                              ? "box"
+                              : "box|cylinder|sphere|projectile|file"),
+      "Shape of the body; projectile: a cylinder with a conical or ogival "
+      "nose; file: a mesh of hexahedra.");
   prm.declare_entry("Material", "", Patterns::Anything(),
                     "Name of a subsection of Materials.");
   const QuantityPattern vector3(Dimension::length, 3, 3, -1e3, 1e3);
@@ -69,21 +143,20 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
   prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
                     QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
-  if (geometry == "cylinder")
+  declare_shape(prm, geometry);
+  if (discretization == "rigid")
   {
-    prm.declare_entry("Radius", "1 mm",
-                      QuantityPattern(Dimension::length, 1e-9, 1e3),
-                      "Radius of the cylinder.");
-    prm.declare_entry("Length", "1 mm",
-                      QuantityPattern(Dimension::length, 1e-9, 1e3),
-                      "Length of the cylinder.");
-    prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z"),
-                      "Direction of the cylinder's axis.");
+    prm.declare_entry("Cell size", "1 mm",
+                      QuantityPattern(Dimension::length, 1e-9, 1e2),
+                      "Edge of the cells, whose outer faces are the surface.");
+    RigidOptions::declare_parameters(prm);
+    return;
   }
-  else
-    prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
-                      QuantityPattern(Dimension::length, 3, 3, 1e-9, 1e3),
-                      "Edge lengths of the box.");
+  prm.declare_entry("Symmetry faces", "", names,
+                    std::string("Plane faces on which the model is cut: no "
+                                "velocity across them, no contact with them. "
+                                "Among ") +
+                        face_names(geometry) + ".");
   if (discretization == "SPG")
   {
     prm.declare_entry("Nodal spacing", "1 mm",
@@ -105,16 +178,33 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
     {
       prm.declare_entry("Coarsest cell size", "1 km",
                         QuantityPattern(Dimension::length, 1e-9, 1e3),
-                        "Where a zone is carved from the body, cells grow away "
-                        "from it up to this size.");
+                        "Where a zone is carved from the body or refined, "
+                        "cells grow away from it up to this size.");
       prm.declare_entry("Growth ratio", "1.15",
                         QuantityPattern(Dimension::none, 1., 3.),
                         "Size of one cell over the last, away from the zone.");
     }
+    if (geometry == "box")
+    {
+      prm.declare_entry("Refined zone size", "0 mm, 0 mm, 0 mm",
+                        QuantityPattern(Dimension::length, 3, 3, 0., 1e3),
+                        "Edge lengths of the part of the box that has cells of "
+                        "the cell size; 0: all of it.");
+      prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
+                        QuantityPattern(Dimension::length, 3, 3, -1e3, 1e3),
+                        "Position of its centre.");
+    }
     prm.declare_entry("Clamped faces", "", names,
-                      geometry == "box"
-                          ? "Faces held fixed, among -x, +x, -y, +y, -z, +z."
-                          : "Faces held fixed, among lower, upper, side.");
+                      "Faces held fixed, among " + face_names(geometry) + ".");
+    prm.declare_entry("Driven faces", "", names,
+                      "Faces whose nodes move with the prescribed velocity; "
+                      "the work done on them counts as external.");
+    prm.declare_entry("Prescribed velocity", "0 m/s, 0 m/s, 0 m/s",
+                      QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
+                      "Constant velocity of the driven faces.");
+    prm.declare_entry("Prescribed components", "x, y, z", names,
+                      "Components of the prescribed velocity that count; the "
+                      "others are free.");
     FemOptions::declare_parameters(prm);
   }
 }
@@ -239,14 +329,17 @@ void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
                                      equation_of_state);
          Material::declare_parameters(prm, model, equation_of_state);
        });
-  each("Bodies", {"<FEM box>", "<FEM cylinder>", "<SPG box>"},
+  each("Bodies",
+       {"<FEM box>", "<FEM cylinder>", "<FEM sphere>", "<FEM projectile>",
+        "<FEM file>", "<SPG box>"},
        [&](const std::string &path, const std::string &name)
        {
          const bool manual = file == nullptr;
          declare_body(prm,
-                      manual ? name.substr(1, 3)
+                      manual ? name.substr(1, name.find(' ') - 1)
                              : read(path + "/Discretization", "FEM"),
-                      manual ? name.substr(5, name.size() - 6)
+                      manual ? name.substr(name.find(' ') + 1,
+                                           name.size() - name.find(' ') - 2)
                              : read(path + "/Geometry", "box"));
        });
   each("Couplings", {"<tie>", "<contact>", "<self-contact>"},

@@ -166,7 +166,10 @@ std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
   std::vector<ZoneVerdict> verdicts;
   double n_spg = 0., n_fem = 0.;
   for (const auto &body : scene.bodies)
-    (body->item_name() == "particles" ? n_spg : n_fem) += body->n_items();
+  {
+    n_spg += body->step_timer_name() == "spg step" ? body->n_items() : 0;
+    n_fem += body->step_timer_name() == "fem step" ? body->n_items() : 0;
+  }
   for (const ZoneBox &zone : find_zones(scene))
   {
     const Body &body = *scene.bodies[zone.zone];

@@ -38,16 +38,18 @@ Slab slab(const int n)
       "slab", 0, make_bar(0., n, length / n), metal(0.), options));
   world.distribute();
   auto &body = static_cast<FemBody &>(*world.bodies[0]);
-  double *const T = body.state_array("temperature");
   const double h = length / n;
   const auto mean = [&](const int e)
   { return (std::sin(k * (e + 1) * h) - std::sin(k * e * h)) / (k * h); };
+  std::vector<double> start;
   for (int e = 0; e < n; ++e)
-    T[e] = 300. + 100. * mean(e);
+    start.push_back(100. * mean(e));
+  body.shift_state("temperature", start);
   // Steps as h^2, so that the error in time, of first order, follows h^2.
   const int steps = n * n;
   for (int i = 1; i <= steps; ++i)
     body.update_topology(i, end * i / steps);
+  const std::vector<double> T = body.cell_state("temperature");
   Slab result{0., 0., 0.};
   for (int e = 0; e < n; ++e)
   {
@@ -94,7 +96,7 @@ std::vector<Check> expansion()
         }));
     world.distribute();
     auto &cell = static_cast<FemBody &>(*world.bodies[0]);
-    cell.state_array("temperature")[0] += rise;
+    cell.shift_state("temperature", {rise});
     world.integrator.initialize();
     for (int i = 0; i < 2000; ++i)
       world.advance(0.5);

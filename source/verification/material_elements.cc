@@ -138,10 +138,10 @@ std::vector<Check> uniaxial_johnson_cook()
     checks.push_back({"lateral stress" + at, 0., cell.stress(1, 0),
                       2e-3 * sigma, "Pa", source});
     checks.push_back({"effective plastic strain" + at, eps,
-                      cell.state_array("effective plastic strain")[0],
+                      cell.cell_state("effective plastic strain")[0],
                       2e-3 * eps, "1", source});
     checks.push_back({"temperature rise" + at, T - 294.,
-                      cell.state_array("temperature")[0] - 294.,
+                      cell.cell_state("temperature")[0] - 294.,
                       5e-3 * (T - 294.), "K", source});
   }
   return checks;

@@ -74,8 +74,8 @@ std::vector<Check> hugoniot()
   const double got = -axial_stress(target, 0., h, 2e-3, 5e-3);
   // Shock speed relative to the material ahead of it.
   const double speed = 4e-3 / (far.time - near.time);
-  const double *const e = target.state_array("specific internal energy");
-  const double energy = e[int(4e-3 / h)];
+  const double energy =
+      target.cell_state("specific internal energy")[int(4e-3 / h)];
 
   // Release: the free face of the target moves at -u + the integral of
   // dp/(rho c) along the isentrope from the shocked state, times two senses.

@@ -74,6 +74,44 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
+    def test_erosion_is_the_same_on_1_2_and_3_ranks(self):
+        scene = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("erosion%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                         "End time=6 us", "--set",
+                         "Bodies/plate/Cell size=2.5 mm", "--set",
+                         "Outputs/fields/Interval=3 us", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertGreater(r["bodies"]["plate"]["eroded_cells"], 10)
+            self.assertAlmostEqual(
+                r["bodies"]["plate"]["eroded_mass"],
+                r["bodies"]["plate"]["eroded_cells"] * 2700 * 12.7e-3 / 5 *
+                2.5e-3 ** 2, delta=0.05 * r["bodies"]["plate"]["eroded_mass"])
+            self.assertLess(r["energy_residual_max"], 0.005)
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+
+    def test_a_rigid_projectile_on_1_and_2_ranks(self):
+        scene = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        histories = []
+        for ranks in (1, 2):
+            out = folder("rigid%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                         "End time=3 us", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertLess(r["energy_residual_max"], 0.01)
+            self.assertAlmostEqual(r["bodies"]["projectile"]["mass"], 13.6e-3,
+                                   delta=1e-6)
+        self.assertEqual(histories[0], histories[1])
+
     def test_materials_are_the_same_on_1_2_and_3_ranks(self):
         histories = []
         for ranks in (1, 2, 3):
@@ -263,6 +301,45 @@ class Scenes(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn("mpirun -np %d" % ranks, done.stdout)
 
+    def test_all_kinds_of_bodies_resume_bit_for_bit(self):
+        erosion = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")
+        coarse = ("--set", "Bodies/plate/Cell size=2.5 mm", "--set",
+                  "End time=5 us", "--set", "Outputs/fields/Interval=5 us")
+        rigid = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        materials = os.path.join(SOURCE, "tests/scenes/materials.prm")
+        b_bar = ("--set", "Bodies/plate/Integration=B-bar", "--set",
+                 "Bodies/plate/Objective rate=Green-Naghdi")
+        for name, scene, ranks, settings in (
+                ("erosion", erosion, 1, coarse),
+                ("erosion on two ranks", erosion, 2, coarse),
+                ("erosion of B-bar cells", erosion, 1, coarse + b_bar),
+                ("rigid", rigid, 2, ("--set", "End time=2 us")),
+                ("materials", materials, 2, ())):
+            with self.subTest(name):
+                straight, parted = folder("whole"), folder("parts")
+                done = sabot("run", scene, "-o", straight, "--quiet", *settings,
+                             ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                every = int(0.6 * result(straight)["steps"])
+                done = sabot("run", scene, "-o", parted, "--quiet", *settings,
+                             "--set", "Checkpoint interval in steps=%d" % every,
+                             ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                os.remove(os.path.join(parted, "history.h5"))
+                done = sabot("resume", parted, "--quiet", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                with open(os.path.join(parted, "log.txt")) as file:
+                    self.assertIn("resumed at step %d," % every, file.read())
+                with open(os.path.join(straight, "history.h5"), "rb") as a, \
+                        open(os.path.join(parted, "history.h5"), "rb") as b:
+                    self.assertEqual(a.read(), b.read())
+                whole, parts = result(straight), result(parted)
+                for key in ("bodies", "energy", "quantities", "contact"):
+                    self.assertEqual(whole[key], parts[key])
+                if "erosion" in name:
+                    self.assertGreater(
+                        whole["bodies"]["plate"]["eroded_cells"], 5)
+
     def test_a_signalled_run_resumes(self):
         settings = ("--quiet", "--set", "End time=3 ms", "--set",
                     "Outputs/fields/Interval=1 ms", "--set",
@@ -351,6 +428,24 @@ class Scenes(unittest.TestCase):
                      "Bodies/projectile/Initial velocity=0 m/s, 0 m/s, -6 km/s",
                      "--set", "End time=2 us")
         self.assertIn("has no equation of state", done.stdout)
+
+    def test_a_plan_knows_all_kinds_of_bodies(self):
+        short = ("--set", "End time=1 us")
+        coarse = ("--set", "Bodies/plate/Cell size=2.5 mm")
+        for scene, settings, expected in (
+                ("fem-erosion", coarse, "yield = 7.84"),
+                ("fem-erosion", coarse + (
+                    "--set", "Bodies/plate/Integration=B-bar"), "cells"),
+                ("rigid-projectile", (), "never yields"),
+                ("fem-erosion", coarse + (
+                    "--set", "Bodies/projectile/Geometry=projectile", "--set",
+                    "Bodies/projectile/Discretization=rigid", "--set",
+                    "Bodies/projectile/Centre=0 mm, 0 mm, 30 mm"),
+                 "transits")):
+            done = sabot("plan", os.path.join(
+                SOURCE, "prm/perforation/%s.prm" % scene), *settings, *short)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn(expected, done.stdout)
 
     def test_a_study_runs_resumes_and_reports(self):
         study = os.path.join(SOURCE, "tests/scenes/study.prm")

@@ -15,6 +15,9 @@ struct EnergyLedger
 {
   ExactSum kinetic, internal, stabilization, hourglass, contact, friction,
       external;
+  /** Of eroded cells and of nodes that lost all their cells: still energy of
+      the scene, but out of reach of its bodies. */
+  ExactSum eroded;
   /** Part of internal that was dissipated by plastic flow (information). */
   ExactSum plastic_work;
 };

@@ -29,8 +29,11 @@ struct ContactSurface
   std::vector<std::array<std::size_t, 4>> faces; // any local node index
   std::vector<GlobalIndex> face_id;              // same on every rank
   std::vector<std::size_t> nodes;                // owned, may touch faces
-  double bulk_modulus = 0.;                      // [Pa], for the penalty
-  double spacing = 0.;                           // [m], typical node distance
+  /** Parallel to nodes: the part of a node that a model cut at symmetry planes
+      holds, 1/2 on a plane, 1/4 on two; empty where all are whole. */
+  std::vector<double> node_share;
+  double bulk_modulus = 0.; // [Pa], for the penalty
+  double spacing = 0.;      // [m], typical node distance
 };
 
 /** Owned nodes that have come loose (a failed bond), which may meet each other
@@ -85,6 +88,9 @@ public:
 
   /** Velocities that are prescribed, e.g. of clamped nodes. */
   virtual void impose_velocities(const double time) = 0;
+  /** Work of the current forces on prescribed velocities along half a step's
+      motion (called before and after each drift). */
+  virtual void accumulate_work(const double /*half_dt*/) {}
   /** Copy positions and velocities that the forces need to other ranks. */
   virtual void update_ghosts() = 0;
   /** Set force of every owned node to external - internal - stabilization.

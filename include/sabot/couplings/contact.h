@@ -83,7 +83,8 @@ private:
   std::vector<Group> groups;
   std::vector<std::array<std::size_t, 4>> face_slots;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
-  double skin = 0., travelled = 0.;                             // [m]
+  unsigned int surface_version = 0; // sum over bodies at the last search
+  double skin = 0., travelled = 0.; // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
   NodeKey initial_node{-1, 0, -1};
   ExactSum contact_work, friction_work; // done on owned nodes [J]

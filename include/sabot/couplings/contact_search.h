@@ -29,6 +29,7 @@ struct ContactCandidate
 {
   NodeKey node;
   std::int64_t face; // index into SearchResult::faces
+  double share;      // ContactSurface::node_share
   ContactMemory memory;
 };
 

@@ -15,6 +15,7 @@ struct BoxSpecification
   double coarsest_cell_size = 1e30;                               // [m]
   double growth_ratio = 1.;
   bool has_zone = false;
+  bool zone_is_cut = true; // else it is only where the cells are fine
   std::array<double, 3> zone_centre{{0., 0., 0.}}, zone_size{{0., 0., 0.}};
   std::string zone_path; // of the zone's body, for messages
 };
@@ -25,17 +26,30 @@ struct BoxSpecification
  */
 HexMesh make_graded_box(const BoxSpecification &box);
 
+/** How the o-grid of a cylinder is graded. */
+struct CylinderGrading
+{
+  double core_radius = 0.; // [m], of the square core's corners; 0: 0.55 r
+  double growth_ratio = 1.;
+  double coarsest_cell_size = 1e30; // [m], of the rings
+};
+
 /**
  * A cylinder of hexahedra on an o-grid (square core, rings around it), with
  * cells of about @p cell_size. Its polygonal cross-section is scaled to the
  * area pi r^2, so that volume and mass are exact; the rim nodes then lie
  * outside the circle by a fraction pi^2/(3 n^2) of r for n rim cells.
  * Boundary ids: 0 lower end, 1 upper end, 2 side. @p axis: 0, 1, 2.
+ * @p n_cuts: 1 keeps the half where the coordinate after the axis is not less
+ * than the centre's, 2 the quarter where the one after that is not, either; the
+ * cut planes have the boundary ids 3 and 4. @p grading: a smaller core with
+ * rings that grow outwards.
  */
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
                       const std::array<double, 3> &centre,
-                      const double cell_size);
+                      const double cell_size, const unsigned int n_cuts = 0,
+                      const CylinderGrading &grading = CylinderGrading());
 
 /** Grid planes between @p low and @p high: about @p fine between @p inner_low
     and @p inner_high, which are planes themselves, then growing outwards. */

@@ -48,6 +48,7 @@ public:
 private:
   void kick(const double dt);
   void impose_velocities();
+  void accumulate_work(const double half_dt);
   void compute_forces(const double dt);
   void agree_on_problems(const std::string &problem) const;
 

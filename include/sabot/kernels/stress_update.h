@@ -18,6 +18,7 @@ namespace sabot
 inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
                              double *const t[6])
 {
+#pragma GCC ivdep // components do not overlap
   for (std::size_t k = 0; k < n; ++k)
   {
     // Axial vector: w r = a x r.
@@ -55,6 +56,7 @@ inline void half_work(const std::size_t n, const double *const stress[6],
                       const double *const strain[6], const double *half_volume,
                       double *energy)
 {
+#pragma GCC ivdep
   for (std::size_t k = 0; k < n; ++k)
     energy[k] +=
         half_volume[k] *

@@ -29,7 +29,7 @@ struct BodyFacts
   double wave_speed;                           // dilatational [m/s]
   double yield_stress;        // at about 1e3 1/s [Pa]; huge: never yields
   bool has_equation_of_state; // other than a constant bulk modulus
-  bool is_spg, is_clamped;
+  bool is_spg, is_rigid, is_clamped;
   double failure_strain;                     // of bonds; huge: never
   double spacing;                            // of nodes, finest [m]
   std::array<double, 3> velocity, low, high; // [m/s, m, m]

@@ -76,6 +76,7 @@ public:
   std::vector<OutputSettings> outputs;
   std::vector<QuantityOfInterest> quantities;
   std::vector<std::string> warnings;
+  std::vector<std::string> notes; // for `sabot check`, e.g. mesh quality
   /** True where nothing holds a body from outside, so that linear momentum
       must be constant. */
   bool is_free = true;

@@ -48,7 +48,7 @@ struct World
     integrator.update_topology(++step);
     return dt;
   }
-  /** Kinetic, internal (with stabilisation and hourglass), contact with
+  /** Kinetic, internal (with stabilisation, hourglass, eroded), contact with
       friction. */
   std::array<double, 3> energies() const
   {
@@ -58,10 +58,11 @@ struct World
     for (auto &coupling : couplings)
       coupling->add_energies(e);
     ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
-                      &e.contact, &e.friction},
+                      &e.contact, &e.friction, &e.eroded},
                      MPI_COMM_WORLD);
     return {{e.kinetic.value(),
-             e.internal.value() + e.stabilization.value() + e.hourglass.value(),
+             e.internal.value() + e.stabilization.value() +
+                 e.hourglass.value() + e.eroded.value(),
              e.contact.value() + e.friction.value()}};
   }
   double total_energy() const

@@ -4,13 +4,16 @@
 #include "sabot/bodies/body_report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <unordered_map>
 
 namespace sabot
 {
 void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
 {
+  prm.declare_entry("Integration", "one point",
+                    dealii::Patterns::Selection("one point|B-bar"),
+                    "one point: fast, with hourglass control; B-bar: eight "
+                    "points with the mean volumetric strain, no hourglass "
+                    "modes, no volumetric locking, several times the cost.");
   prm.declare_entry("Hourglass control", "viscous",
                     dealii::Patterns::Selection("viscous|stiffness"),
                     "Flanagan-Belytschko; viscous for large plastic flow, "
@@ -36,11 +39,30 @@ void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Quadratic bulk viscosity", "1.5",
                     QuantityPattern(Dimension::none, 0., 10.),
                     "Coefficient of rho h^2 (div v)^2 in compression.");
+  prm.declare_entry("Erosion plastic strain", "1e10",
+                    QuantityPattern(Dimension::none, 0.),
+                    "A cell is eroded when its effective plastic strain "
+                    "exceeds this. 1e10: never.");
+  prm.declare_entry("Erosion damage", "1e10",
+                    QuantityPattern(Dimension::none, 0.),
+                    "A cell is eroded when the material's damage reaches this "
+                    "(1: fully damaged). 1e10: never.");
+  prm.declare_entry("Erosion step", "0 s",
+                    QuantityPattern(Dimension::time, 0., 1.),
+                    "A cell is eroded when its own stable step falls below "
+                    "this. 0: never.");
+  prm.declare_entry("Inversion", "stop",
+                    dealii::Patterns::Selection("stop|erode|shrink step"),
+                    "What to do when a cell is about to turn inside out: stop "
+                    "the run, erode the cell, or (shrink step) let no step "
+                    "take more than a quarter of a cell's volume.");
 }
 
 FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
 {
   FemOptions o;
+  o.integration = prm.get("Integration") == "B-bar" ? Integration::b_bar
+                                                    : Integration::one_point;
   o.hourglass = prm.get("Hourglass control") == "viscous"
                     ? Hourglass::viscous
                     : Hourglass::stiffness;
@@ -52,6 +74,13 @@ FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
   o.hourglass_coefficient = get_quantity(prm, "Hourglass coefficient");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
+  o.erosion_plastic_strain = get_quantity(prm, "Erosion plastic strain");
+  o.erosion_damage = get_quantity(prm, "Erosion damage");
+  o.erosion_step = get_quantity(prm, "Erosion step");
+  const std::string inversion = prm.get("Inversion");
+  o.inversion = inversion == "erode"  ? Inversion::erode
+                : inversion == "stop" ? Inversion::stop
+                                      : Inversion::shrink;
   return o;
 }
 
@@ -60,14 +89,31 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                  const FemOptions &options)
     : Body(name, id), mesh(std::move(mesh)), material(std::move(material)),
       options(options), n_global_cells(this->mesh.cells.size()),
-      state_variables(this->material->state_variables()),
-      n_states(count_states(state_variables))
+      cells(Hexahedra::make(name, options, this->material))
 {
+  for (const unsigned int boundary : options.symmetry_boundary_ids)
+    symmetry_axes[boundary] = symmetry_axis(boundary);
+  const auto need = [&](const double limit, const std::string &variable,
+                        const std::string &entry)
+  {
+    if (limit < FemOptions::never && !has_state(variable))
+      throw InputError("Bodies/" + name + "/" + entry,
+                       "the body's material has no " + variable +
+                           "; use a law that has it or remove the entry");
+  };
+  need(options.erosion_plastic_strain, "effective plastic strain",
+       "Erosion plastic strain");
+  need(options.erosion_damage, "damage", "Erosion damage");
   if (options.conducts_heat && !(this->material->conductivity() > 0.))
     throw InputError("Bodies/" + name + "/Heat conduction",
                      "the body's material has no temperature or no thermal "
                      "conductivity; set \"Thermal conductivity\" of a law "
                      "with temperature, for example 167 W/m/K");
+  if (options.conducts_heat && options.erodes())
+    throw InputError("Bodies/" + name + "/Heat conduction",
+                     "heat is conducted in all cells of a body or in none, so "
+                     "cells must not erode; remove the erosion criteria (and "
+                     "\"Inversion = erode\") or the conduction");
 }
 
 void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -77,7 +123,7 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   MPI_Comm_rank(communicator, &rank);
 
   // Cells of the owned nodes, then the nodes of these cells.
-  std::vector<GlobalIndex> owned, ghosts;
+  std::vector<GlobalIndex> owned, ghosts, cell_id;
   for (std::size_t i = 0; i < owner.size(); ++i)
     if (owner[i] == rank)
       owned.push_back(i);
@@ -125,157 +171,140 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     nodal_state.lumped_mass[i] = 0.;
   }
 
-  // Reference geometry of the cells; masses add up in global cell order.
-  const std::size_t n = cell_id.size();
-  geometry.resize(n);
-  hourglass_modes.resize(n);
-  viscous_pressure.assign(n, 0.);
-  constexpr int h[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
-                           {1, -1, -1, 1, -1, 1, 1, -1},
-                           {1, -1, 1, -1, 1, -1, 1, -1},
-                           {-1, 1, -1, 1, 1, -1, 1, -1}};
-  for (std::size_t e = 0; e < n; ++e)
+  // Masses add up in global cell order.
+  std::vector<std::array<std::uint32_t, 8>> connectivity;
+  for (const GlobalIndex c : cell_id)
   {
-    const GlobalIndex c = cell_id[e];
     std::array<std::uint32_t, 8> nodes;
-    HourglassModes &modes = hourglass_modes[e];
-    for (Vec &mode : modes.mode)
-      mode = Vec{};
-    geometry[e].gradient_square = Mat::zero();
     for (int a = 0; a < 8; ++a)
     {
       nodes[a] = local.at(mesh.cells[c][a]);
-      const auto &B = mesh.mean_gradient[c][a];
-      const Vec gradient = vec(B[0], B[1], B[2]);
-      geometry[e].mean_gradient[a] = gradient;
-      add_outer(geometry[e].gradient_square, gradient, gradient);
       nodal_state.lumped_mass[nodes[a]] +=
           0.125 * material->density() * mesh.volume[c];
-      if (options.hourglass == FemOptions::Hourglass::stiffness)
-        for (int m = 0; m < 4; ++m)
-          modes.mode[m] +=
-              double(h[m][a]) * nodal_state.reference_position[nodes[a]];
     }
     connectivity.push_back(nodes);
-    volume.push_back(mesh.volume[c]);
   }
   nodal_state.inertia = nodal_state.lumped_mass;
 
-  double total_area = 0.;
-  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
-  {
-    std::array<std::size_t, 4> face;
-    bool here = true, fixed = std::count(options.clamped_boundary_ids.begin(),
-                                         options.clamped_boundary_ids.end(),
-                                         mesh.boundary_id[f]) > 0;
-    Vec x[4];
-    for (int a = 0; a < 4; ++a)
-    {
-      const GlobalIndex node = mesh.boundary_faces[f][a];
-      const auto &p = mesh.nodes[node];
-      x[a] = vec(p[0], p[1], p[2]);
-      const auto found = local.find(node);
-      here = here && found != local.end();
-      if (found == local.end())
-        continue;
-      face[a] = found->second;
-      if (fixed && found->second < nodal_state.n_owned)
-        clamped.push_back(found->second);
-    }
-    total_area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
-    if (here)
-    {
-      boundary_faces.push_back(face);
-      boundary_face_id.push_back(f);
-    }
-  }
-  typical_spacing = std::sqrt(total_area / mesh.boundary_faces.size());
-  std::sort(clamped.begin(), clamped.end());
-  clamped.erase(std::unique(clamped.begin(), clamped.end()), clamped.end());
+  set_up_boundary(local);
 
-  gradient.assign(n, Mat::identity());
-  if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
-    polar_rotation.assign(n, Mat::identity());
-  stress_data.assign(6 * n, 0.);
-  state_data.resize(n_states * n);
-  std::size_t s = 0;
-  for (const StateVariable &variable : state_variables)
-    for (int c = 0; c < (variable.is_tensor ? n_symmetric : 1); ++c, ++s)
-      std::fill_n(&state_data[s * n], n, variable.initial_value);
-  batch_states.resize(n_states);
-  internal_energy.assign(n, 0.);
-  hourglass_energy.assign(n, 0.);
-  plastic_work.assign(n, 0.);
+  cells->set_up(mesh, cell_id, connectivity);
+  if (options.erodes())
+    set_up_erosion();
   mesh = HexMesh();
   if (options.conducts_heat)
   {
-    std::vector<double> capacity = volume;
+    std::vector<double> capacity = cells->volume;
     for (double &c : capacity)
       c *= material->density() * material->specific_heat();
     heat = std::make_unique<HeatConduction>(material->conductivity(),
-                                            connectivity, capacity, nodal_state,
-                                            node_exchange, communicator);
+                                            cells->connectivity, capacity,
+                                            nodal_state, node_exchange,
+                                            communicator);
   }
 }
 
 void FemBody::conduct_heat(const double time)
 {
   // Ghost positions are those of the last force computation: now.
-  heat->advance(nodal_state, time - last_conduction,
-                state_array("temperature"));
+  const std::vector<double> before = cells->cell_state("temperature");
+  std::vector<double> change = before;
+  heat->advance(nodal_state, time - last_conduction, change.data());
+  for (std::size_t e = 0; e < change.size(); ++e)
+    change[e] -= before[e];
+  cells->shift_state("temperature", change);
   last_conduction = time;
+}
+
+void FemBody::update_topology(const unsigned int, const double time)
+{
+  if (heat && time >= last_conduction + options.conduction_interval)
+    conduct_heat(time);
+  if (erosion)
+    erode_cells();
+}
+
+bool FemBody::has_state(const std::string &variable) const
+{
+  const auto &states = cells->states();
+  return std::any_of(states.begin(), states.end(), [&](const StateVariable &v)
+                     { return v.name == variable; });
 }
 
 void FemBody::impose_velocities(const double)
 {
-  for (const std::size_t i : clamped)
-    nodal_state.velocity[i] = Vec{};
+  constraints.impose(nodal_state);
 }
 
-const double *FemBody::state_array(const std::string &wanted) const
+void FemBody::accumulate_work(const double half_dt)
 {
-  return find_state(state_variables, state_data, connectivity.size(), wanted);
+  constraints.accumulate_work(nodal_state, half_dt);
+}
+
+void FemBody::update_ghosts()
+{
+  node_exchange.update(nodal_state.position.data());
+  node_exchange.update(nodal_state.velocity.data());
+}
+
+void FemBody::compute_forces(const double /*time*/, const double dt)
+{
+  std::fill(nodal_state.force.begin(), nodal_state.force.end(), Vec{});
+  cells->add_forces(nodal_state, dt);
+}
+
+StableStep FemBody::stable_step() const
+{
+  return cells->smallest_step;
 }
 
 void FemBody::add_energies(EnergyLedger &ledger) const
 {
+  const std::vector<char> *const is_free = free_nodes();
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    ledger.kinetic.add(0.5 * nodal_state.inertia[i] *
-                       norm_square(nodal_state.velocity[i]));
-  for (std::size_t e = 0; e < connectivity.size(); ++e)
+    (is_free != nullptr && (*is_free)[i] ? ledger.eroded : ledger.kinetic)
+        .add(0.5 * nodal_state.inertia[i] *
+             norm_square(nodal_state.velocity[i]));
+  ledger.external.add(constraints.work());
+  if (erosion)
+  {
+    ledger.eroded.add(erosion->energy);
+    ledger.plastic_work.add(erosion->plastic_work);
+  }
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      ledger.internal.add(internal_energy[e]);
-      ledger.hourglass.add(hourglass_energy[e]);
-      ledger.plastic_work.add(plastic_work[e]);
+      ledger.internal.add(cells->internal_energy(e));
+      ledger.hourglass.add(cells->hourglass_energy[e]);
+      ledger.plastic_work.add(cells->plastic_work(e));
     }
 }
 
 Measures FemBody::measure() const
 {
-  const double *const eps = state_array("effective plastic strain");
-  const double *const temperature = state_array("temperature");
+  const std::vector<double> eps = cells->cell_state("effective plastic strain"),
+                            temperature = cells->cell_state("temperature");
   ExactSum internal, hourglass;
   double top[2] = {0., 0.};
-  for (std::size_t e = 0; e < connectivity.size(); ++e)
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      internal.add(internal_energy[e]);
-      hourglass.add(hourglass_energy[e]);
-      top[0] = std::max(top[0], eps ? eps[e] : 0.);
-      top[1] = std::max(top[1], temperature ? temperature[e] : 0.);
+      internal.add(cells->internal_energy(e));
+      hourglass.add(cells->hourglass_energy[e]);
+      top[0] = std::max(top[0], eps.empty() ? 0. : eps[e]);
+      top[1] = std::max(top[1], temperature.empty() ? 0. : temperature[e]);
     }
   ExactSum::reduce({&internal, &hourglass}, communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = measure_nodes(nodal_state, communicator);
+  Measures measures = measure_nodes(nodal_state, communicator, free_nodes());
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"hourglass energy", "J", hourglass.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
   // Not from the array, which a rank without cells does not have.
-  if (std::any_of(state_variables.begin(), state_variables.end(),
-                  [](const StateVariable &v)
-                  { return v.name == "temperature"; }))
+  if (has_state("temperature"))
     measures.push_back({"temperature max", "K", top[1]});
+  if (erosion)
+    add_erosion_measures(measures);
   return measures;
 }
 
@@ -288,13 +317,14 @@ OutputMesh FemBody::output_mesh() const
   for (std::size_t i = 0; i < n_nodes; ++i)
     for (int d = 0; d < 3; ++d)
       out.points.push_back(nodal_state.position[i][d]);
-  std::vector<std::size_t> cells;
-  for (std::size_t e = 0; e < connectivity.size(); ++e)
+  std::vector<std::size_t> owned;
+  for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      cells.push_back(e);
-      out.connectivity.insert(out.connectivity.end(), connectivity[e].begin(),
-                              connectivity[e].end());
+      owned.push_back(e);
+      const auto &nodes = cells->connectivity[e];
+      out.connectivity.insert(out.connectivity.end(), nodes.begin(),
+                              nodes.end());
     }
   add_field(out.point_fields, "displacement", "m", n_nodes, 3,
             [&](const std::size_t i, const unsigned int c) {
@@ -304,55 +334,30 @@ OutputMesh FemBody::output_mesh() const
   add_field(out.point_fields, "velocity", "m/s", n_nodes, 3,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
-  add_material_fields(out.cell_fields, cells, connectivity.size(), stress_data,
-                      state_data, state_variables);
-  add_field(out.cell_fields, "body", "1", cells.size(), 1,
+  add_material_fields(out.cell_fields, owned, cells->size(),
+                      cells->cell_stress(), cells->cell_states(),
+                      cells->states());
+  add_field(out.cell_fields, "body", "1", owned.size(), 1,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", "1", cells.size(), 1,
+  add_field(out.cell_fields, "rank", "1", owned.size(), 1,
             [&](std::size_t, unsigned int) { return double(rank); });
   return out;
 }
 
 void FemBody::visit_state(StateVisitor &visitor)
 {
-  const auto visit = [&](const std::string &array, auto &data)
-  { visitor.visit(array, data.data(), data.size(), sizeof(data[0])); };
-  visit("position", nodal_state.position);
-  visit("velocity", nodal_state.velocity);
-  visit("force", nodal_state.force);
-  visit("inertia", nodal_state.inertia);
-  visit("gradient", gradient);
-  visit("polar rotation", polar_rotation);
+  visitor.visit_array("position", nodal_state.position);
+  visitor.visit_array("velocity", nodal_state.velocity);
+  visitor.visit_array("force", nodal_state.force);
+  visitor.visit_array("inertia", nodal_state.inertia);
+  if (erosion)
+    visit_erosion(visitor);
+  cells->visit_state(visitor);
   if (heat)
   {
     heat->visit_state(visitor);
-    visitor.visit("last conduction", &last_conduction, 1, sizeof(double));
+    visitor.visit_value("last conduction", last_conduction);
   }
-  visit("hourglass modes", hourglass_modes);
-  visit("viscous pressure", viscous_pressure);
-  visit("stress", stress_data);
-  visit("state", state_data);
-  visit("internal energy", internal_energy);
-  visit("hourglass energy", hourglass_energy);
-  visit("plastic work", plastic_work);
-  visitor.visit("stable step", &current_stable_step, 1, sizeof(double));
-  visitor.visit("stable step item", &stable_step_item, 1, sizeof(GlobalIndex));
-}
-
-ContactSurface FemBody::contact_surface() const
-{
-  ContactSurface surface;
-  surface.faces = boundary_faces;
-  surface.face_id = boundary_face_id;
-  for (const auto &face : boundary_faces)
-    for (const std::size_t a : face)
-      if (a < nodal_state.n_owned)
-        surface.nodes.push_back(a);
-  std::sort(surface.nodes.begin(), surface.nodes.end());
-  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()),
-                      surface.nodes.end());
-  surface.bulk_modulus = material->bulk_modulus();
-  surface.spacing = typical_spacing;
-  return surface;
+  visitor.visit_value("external work", constraints.work());
 }
 } // namespace sabot

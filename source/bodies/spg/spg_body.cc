@@ -68,7 +68,11 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
         material->density() * volume;
     on_face[i] = cloud.on_face[ids[i]];
     reference_volume[i] = volume;
+    for (int face = 0; face < 6; ++face)
+      if (on_face[i] & options.symmetry_faces & 1 << face)
+        constraints.prescribe(i, face / 2, 0.);
   }
+  constraints.finish();
   renumber(rows);
   cloud = ParticleCloud();
 
@@ -165,6 +169,10 @@ ContactSurface SpgBody::contact_surface() const
   surface.nodes.resize(nodal_state.n_owned);
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
     surface.nodes[i] = i;
+  if (options.symmetry_faces != 0)
+    for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+      surface.node_share.push_back(std::ldexp(
+          1., -__builtin_popcount(on_face[i] & options.symmetry_faces)));
   surface.bulk_modulus = material->bulk_modulus();
   surface.spacing = mean_spacing;
   return surface;

@@ -73,13 +73,15 @@ void SpgBody::smooth_velocities()
   node_exchange.update(nodal_state.inertia.data());
   smoothing_difference(difference, contribution);
   smoothing_difference(difference, contribution);
+  const AlignedVector<Vec> before(nodal_state.velocity.begin(),
+                                  nodal_state.velocity.begin() +
+                                      nodal_state.n_owned);
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-  {
-    const Vec before = nodal_state.velocity[i];
     nodal_state.velocity[i] -= options.smoothing_coefficient * difference[i];
+  constraints.impose(nodal_state);
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
     bond_work[i] +=
         0.5 * nodal_state.lumped_mass[i] *
-        (norm_square(before) - norm_square(nodal_state.velocity[i]));
-  }
+        (norm_square(before[i]) - norm_square(nodal_state.velocity[i]));
 }
 } // namespace sabot

@@ -7,6 +7,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/second_gradient.h"
 #include "sabot/bodies/spg/spg_options.h"
+#include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/particle_cloud.h"
 #include "sabot/materials/material.h"
 
@@ -44,7 +45,10 @@ public:
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
-  void impose_velocities(const double) override {}
+  void impose_velocities(const double) override
+  {
+    constraints.impose(nodal_state);
+  }
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
@@ -185,6 +189,7 @@ private:
 
   // Owned particles
   std::vector<std::uint8_t> on_face;
+  VelocityConstraints constraints; // symmetry planes
   std::vector<double> reference_volume, kernel_volume;
   AlignedVector<Mat> gradient;       // F since the last kernel update
   AlignedVector<Mat> total_gradient; // F up to the last kernel update

@@ -2,6 +2,7 @@
 #define sabot_bodies_spg_spg_options_h
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 namespace dealii
@@ -67,6 +68,7 @@ struct SpgOptions
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  std::uint8_t symmetry_faces = 0; // bits as in ParticleCloud::on_face
 
   static constexpr double never = 1e10;
   static constexpr double never_stress = 1e15; // [Pa]

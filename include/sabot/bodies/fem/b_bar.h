@@ -1,0 +1,61 @@
+#ifndef sabot_bodies_fem_b_bar_h
+#define sabot_bodies_fem_b_bar_h
+
+#include "sabot/bodies/fem/hexahedra.h"
+#include "sabot/kernels/pack.h"
+
+namespace sabot
+{
+/**
+ * Hexahedra with 2 x 2 x 2 points, the volumetric strain replaced by its mean
+ * over the cell (B-bar, Hughes 1980): no hourglass modes and no volumetric
+ * locking. With the present gradients b_aq of point q, of volume v_q,
+ *
+ *   d_q = dev(sum v_a (x) b_aq) + 1/3 tr, tr = sum_q v_q tr d_q / v,
+ *   f_a = -sum_q v_q (dev sigma_q + p 1) b_aq, p = sum_q v_q tr sigma_q / 3 v,
+ *
+ * which do the same work. Four points share a pack, two packs make a cell.
+ */
+class BBar : public Hexahedra
+{
+public:
+  BBar(const std::string &body_name, const FemOptions &options,
+       std::shared_ptr<const Material> material)
+      : Hexahedra(body_name, options, material, 8)
+  {
+  }
+
+  void set_up(
+      const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
+      const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
+  void add_forces(NodalState &nodes, const double dt) override;
+  void cell_forces(const NodalState &nodes, const std::size_t cell,
+                   Vec force[8]) const override;
+  void keep(const std::vector<std::size_t> &kept) override;
+  void visit_state(StateVisitor &visitor) override;
+
+protected:
+  Mat gradient(const std::size_t point) const override;
+
+private:
+  static constexpr int n_packs = 2; // per cell
+  static constexpr std::size_t cells_per_batch = batch_size / 8;
+  struct Geometry
+  {
+    Pack B[n_packs][8][3]; // reference gradients at the points [1/m]
+    Pack volume[n_packs];  // of the points, V_q [m^3]
+  };
+  struct Motion
+  {
+    PackMat F[n_packs];
+  };
+  void kinematics(const NodalState &nodes, const std::size_t cell,
+                  const double dt);
+
+  AlignedVector<Geometry> geometry;
+  AlignedVector<Motion> motion;
+  PointBatch batch;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,70 @@
+#ifndef sabot_bodies_fem_fem_options_h
+#define sabot_bodies_fem_fem_options_h
+
+#include <array>
+#include <vector>
+
+namespace dealii
+{
+class ParameterHandler;
+}
+
+namespace sabot
+{
+struct FemOptions
+{
+  static constexpr double never = 1e10;
+  enum class Integration
+  {
+    one_point,
+    b_bar
+  };
+  Integration integration = Integration::one_point;
+  enum class Hourglass
+  {
+    viscous,
+    stiffness
+  };
+  enum class ObjectiveRate
+  {
+    jaumann,
+    green_naghdi
+  };
+  Hourglass hourglass = Hourglass::viscous;
+  ObjectiveRate objective_rate = ObjectiveRate::jaumann;
+  double hourglass_coefficient = 0.1;
+  double bulk_viscosity_linear = 0.06;
+  double bulk_viscosity_quadratic = 1.5;
+  /** A cell is eroded when one of these is passed; never by default. */
+  double erosion_plastic_strain = never, erosion_damage = never;
+  double erosion_step = 0.; // [s], the cell's own stable step falls below
+  /** What to do with a cell that the last step brought half way to a volume of
+      zero: two more like it would turn it inside out. */
+  enum class Inversion
+  {
+    stop,
+    erode,
+    shrink // no step may take more than a quarter of a cell's volume
+  };
+  Inversion inversion = Inversion::stop;
+  std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  std::vector<unsigned int> clamped_boundary_ids, symmetry_boundary_ids,
+      driven_boundary_ids;
+  /** Of the nodes of driven faces; only the held components count. */
+  std::array<double, 3> driven_velocity{{0., 0., 0.}}; // [m/s]
+  std::array<bool, 3> driven_components{{true, true, true}};
+  bool conducts_heat = false;
+  double conduction_interval = 1e-6; // [s]
+
+  bool erodes() const
+  {
+    return erosion_plastic_strain < never || erosion_damage < never ||
+           erosion_step > 0. || inversion == Inversion::erode;
+  }
+
+  static void declare_parameters(dealii::ParameterHandler &prm);
+  static FemOptions parse(const dealii::ParameterHandler &prm);
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,51 @@
+#ifndef sabot_bodies_velocity_constraints_h
+#define sabot_bodies_velocity_constraints_h
+
+#include "sabot/base/exact_sum.h"
+#include "sabot/base/nodal_state.h"
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * Velocity components of owned nodes that are held at constant values: clamped
+ * nodes, symmetry planes (the normal component is zero), driven faces.
+ *
+ * The reaction on a component with constant velocity is minus the node's force
+ * there, so what drives the nodes does the work -f . v dt on the body
+ * (trapezoidal over the step, as the work of couplings).
+ */
+class VelocityConstraints
+{
+public:
+  /** Hold component @p axis of node @p i; a later call replaces an earlier. */
+  void prescribe(const std::size_t i, const int axis, const double velocity);
+  /** Once, after the last prescribe(). */
+  void finish();
+
+  /** Set the held components. */
+  void impose(NodalState &nodes) const;
+  /** Work along @p half_dt with the current forces; collective with nobody. */
+  void accumulate_work(const NodalState &nodes, const double half_dt);
+  /** Work done on the owned nodes so far [J]. */
+  const ExactSum &work() const { return done; }
+  ExactSum &work() { return done; }
+
+private:
+  struct Held
+  {
+    std::size_t node;
+    Vec free;  // 1 where the component is free, else 0
+    Vec value; // [m/s], 0 where the component is free
+  };
+  std::map<std::size_t, std::array<std::array<double, 2>, 3>> collected;
+  AlignedVector<Held> held; // ascending
+  bool has_work = false;
+  ExactSum done;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,140 @@
+#ifndef sabot_kernels_pack_h
+#define sabot_kernels_pack_h
+
+#include "sabot/kernels/vec.h"
+
+#include <cstddef>
+#include <cstdint>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+/**
+ * Four cells at once: a Pack holds one number of each, in the lanes of one
+ * AVX register. Every lane sees the same operations wherever its cell stands,
+ * so results do not depend on how cells are grouped.
+ */
+namespace sabot
+{
+typedef double Pack __attribute__((vector_size(32)));
+constexpr std::size_t n_lanes = 4;
+
+struct PackMat
+{
+  Pack m[3][3];
+};
+
+inline Pack pack_max(const Pack a, const Pack b)
+{
+  return a > b ? a : b;
+}
+
+inline Pack pack_min(const Pack a, const Pack b)
+{
+  return a < b ? a : b;
+}
+
+inline Pack pack_sqrt(const Pack a)
+{
+#ifdef __AVX__
+  return _mm256_sqrt_pd(a);
+#else
+  return Pack{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]),
+              std::sqrt(a[3])};
+#endif
+}
+
+/** Cube root for 1e-3 < a < 1e3, to round-off: Halley's iteration,
+    y <- y (y^3 + 2 a)/(2 y^3 + a), from the tangent at 1. */
+inline Pack pack_cbrt(const Pack a)
+{
+  Pack y = (2. + a) / 3.;
+  for (int i = 0; i < 6; ++i)
+  {
+    const Pack cube = y * y * y;
+    y *= (cube + 2. * a) / (2. * cube + a);
+  }
+  return y;
+}
+
+inline Pack load_pack(const double *const p)
+{
+  return *reinterpret_cast<const Pack *>(p);
+}
+
+inline void store_pack(double *const p, const Pack a)
+{
+  *reinterpret_cast<Pack *>(p) = a;
+}
+
+/** The x, y and z of four nodal vectors. */
+inline void gather(const Vec *const nodal, const std::uint32_t node[n_lanes],
+                   Pack out[3])
+{
+  const Vec a = nodal[node[0]], b = nodal[node[1]], c = nodal[node[2]],
+            d = nodal[node[3]];
+  const Vec xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+            xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+            y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7),
+            y_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  out[0] = __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5);
+  out[1] = __builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5);
+  out[2] = __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7);
+}
+
+/** Back: one vector per lane. */
+inline void unpack(const Pack x, const Pack y, const Pack z, Vec out[n_lanes])
+{
+  const Pack zero = {};
+  const Pack xy_even = __builtin_shufflevector(x, y, 0, 4, 2, 6),
+             xy_odd = __builtin_shufflevector(x, y, 1, 5, 3, 7),
+             z_even = __builtin_shufflevector(z, zero, 0, 4, 2, 6),
+             z_odd = __builtin_shufflevector(z, zero, 1, 5, 3, 7);
+  out[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 4, 5);
+  out[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 4, 5);
+  out[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
+  out[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
+}
+
+inline Pack determinant(const PackMat &a)
+{
+  return a.m[0][0] * (a.m[1][1] * a.m[2][2] - a.m[1][2] * a.m[2][1]) +
+         a.m[0][1] * (a.m[1][2] * a.m[2][0] - a.m[1][0] * a.m[2][2]) +
+         a.m[0][2] * (a.m[1][0] * a.m[2][1] - a.m[1][1] * a.m[2][0]);
+}
+
+/** det a times the inverse of a. */
+inline PackMat adjugate(const PackMat &a)
+{
+  PackMat r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+    {
+      const int p = (j + 1) % 3, q = (j + 2) % 3, s = (i + 1) % 3,
+                t = (i + 2) % 3;
+      r.m[i][j] = a.m[p][s] * a.m[q][t] - a.m[p][t] * a.m[q][s];
+    }
+  return r;
+}
+
+/** The matrix of one lane. */
+inline Mat lane_of(const PackMat &a, const std::size_t lane)
+{
+  Mat r;
+  for (int i = 0; i < 3; ++i)
+    r.row[i] = vec(a.m[i][0][lane], a.m[i][1][lane], a.m[i][2][lane]);
+  return r;
+}
+
+inline PackMat multiply(const PackMat &a, const PackMat &b)
+{
+  PackMat c;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      c.m[i][j] =
+          a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j];
+  return c;
+}
+} // namespace sabot
+
+#endif

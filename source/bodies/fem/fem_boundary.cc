@@ -1,0 +1,145 @@
+#include "sabot/bodies/fem/fem_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+bool contains(const std::vector<unsigned int> &ids, const unsigned int id)
+{
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+std::array<Vec, 4> corners(const HexMesh &mesh, const std::size_t face)
+{
+  std::array<Vec, 4> x;
+  for (int a = 0; a < 4; ++a)
+  {
+    const auto &p = mesh.nodes[mesh.boundary_faces[face][a]];
+    x[a] = vec(p[0], p[1], p[2]);
+  }
+  return x;
+}
+
+Vec area_vector(const std::array<Vec, 4> &x)
+{
+  return 0.5 * cross(x[2] - x[0], x[3] - x[1]);
+}
+} // namespace
+
+int FemBody::symmetry_axis(const unsigned int id) const
+{
+  // A face of the plane has all its area across the axis and its corners at
+  // the height of the first.
+  constexpr double tolerance = 1e-6;
+  int axis = -1;
+  double height = 0.;
+  bool plane = true;
+  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
+  {
+    if (mesh.boundary_id[f] != id)
+      continue;
+    const auto x = corners(mesh, f);
+    const Vec area = area_vector(x);
+    const double size = std::sqrt(norm(area));
+    if (axis < 0)
+    {
+      for (int d = 0; d < 3; ++d)
+        if (std::abs(area[d]) > (1. - tolerance) * norm(area))
+          axis = d;
+      if (axis >= 0)
+        height = x[0][axis];
+    }
+    for (int a = 0; a < 4; ++a)
+      plane = plane && axis >= 0 &&
+              std::abs(x[a][axis] - height) < tolerance * size;
+  }
+  if (axis < 0 || !plane)
+    throw InputError("Bodies/" + name + "/Symmetry faces",
+                     "these faces do not lie in one plane across the x, y or z "
+                     "axis; a symmetry plane must");
+  return axis;
+}
+
+void FemBody::set_up_boundary(
+    const std::unordered_map<GlobalIndex, std::uint32_t> &local)
+{
+  // Where they share nodes, symmetry gives way to a driven face, and both to a
+  // clamped one.
+  std::map<std::size_t, int> planes; // bit per axis
+  std::vector<std::size_t> driven, clamped;
+  double total_area = 0.;
+  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
+  {
+    const unsigned int id = mesh.boundary_id[f];
+    total_area += norm(area_vector(corners(mesh, f)));
+    const bool on_plane = contains(options.symmetry_boundary_ids, id);
+    std::array<std::size_t, 4> face;
+    bool here = true;
+    for (int a = 0; a < 4; ++a)
+    {
+      const auto found = local.find(mesh.boundary_faces[f][a]);
+      here = here && found != local.end();
+      if (found == local.end())
+        continue;
+      face[a] = found->second;
+      if (found->second >= nodal_state.n_owned)
+        continue;
+      if (on_plane)
+        planes[found->second] |= 1 << symmetry_axes.at(id);
+      if (contains(options.driven_boundary_ids, id))
+        driven.push_back(found->second);
+      if (contains(options.clamped_boundary_ids, id))
+        clamped.push_back(found->second);
+    }
+    // Nothing touches the body from inside of its other half.
+    if (here && !on_plane)
+    {
+      boundary_faces.push_back(face);
+      boundary_face_id.push_back(f);
+    }
+  }
+  typical_spacing = std::sqrt(total_area / mesh.boundary_faces.size());
+  for (const auto &[node, bits] : planes)
+    for (int d = 0; d < 3; ++d)
+      if (bits & 1 << d)
+      {
+        ++n_symmetry_planes[node];
+        constraints.prescribe(node, d, 0.);
+      }
+  for (const std::size_t node : driven)
+    for (int d = 0; d < 3; ++d)
+      if (options.driven_components[d])
+        constraints.prescribe(node, d, options.driven_velocity[d]);
+  for (const std::size_t node : clamped)
+    for (int d = 0; d < 3; ++d)
+      constraints.prescribe(node, d, 0.);
+  constraints.finish();
+}
+
+ContactSurface FemBody::contact_surface() const
+{
+  ContactSurface surface;
+  surface.faces = boundary_faces;
+  surface.face_id = boundary_face_id;
+  for (const auto &face : boundary_faces)
+    for (const std::size_t a : face)
+      if (a < nodal_state.n_owned)
+        surface.nodes.push_back(a);
+  std::sort(surface.nodes.begin(), surface.nodes.end());
+  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()),
+                      surface.nodes.end());
+  if (!n_symmetry_planes.empty())
+    for (const std::size_t a : surface.nodes)
+    {
+      const auto planes = n_symmetry_planes.find(a);
+      surface.node_share.push_back(
+          planes == n_symmetry_planes.end() ? 1. : 1. / (1 << planes->second));
+    }
+  surface.bulk_modulus = material->bulk_modulus();
+  surface.spacing = typical_spacing;
+  return surface;
+}
+} // namespace sabot

@@ -1,0 +1,350 @@
+#include "sabot/bodies/rigid/rigid_body.h"
+
+#include "sabot/base/quantity.h"
+#include "sabot/bodies/body_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace sabot
+{
+namespace
+{
+/** a b. */
+std::array<double, 4> product(const std::array<double, 4> &a,
+                              const std::array<double, 4> &b)
+{
+  return {{a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+           a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+           a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+           a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]}};
+}
+
+/** Rotation by the vector @p angle. */
+std::array<double, 4> rotation_by(const Vec angle)
+{
+  const double size = norm(angle), half = 0.5 * size;
+  const double s = size > 1e-8 ? std::sin(half) / size : 0.5;
+  return {{std::cos(half), s * angle[0], s * angle[1], s * angle[2]}};
+}
+
+/** Tensor of inertia of a point mass at @p r. */
+Mat point_inertia(const double m, const Vec r)
+{
+  Mat I = (m * norm_square(r)) * Mat::identity();
+  add_outer(I, -m * r, r);
+  return I;
+}
+} // namespace
+
+void RigidOptions::declare_parameters(dealii::ParameterHandler &prm)
+{
+  prm.declare_entry("Motion", "free",
+                    dealii::Patterns::Selection("free|prescribed"),
+                    "free: six degrees of freedom; prescribed: the initial "
+                    "velocities stay, and their work counts as external.");
+  prm.declare_entry("Angular velocity", "0 1/s, 0 1/s, 0 1/s",
+                    QuantityPattern(Dimension::strain_rate, 3, 3, -1e8, 1e8),
+                    "Rotation vector per time at time 0, about the centre of "
+                    "mass.");
+}
+
+RigidOptions RigidOptions::parse(const dealii::ParameterHandler &prm)
+{
+  RigidOptions o;
+  o.is_prescribed = prm.get("Motion") == "prescribed";
+  const std::vector<double> w = get_quantities(prm, "Angular velocity");
+  o.angular_velocity = {{w[0], w[1], w[2]}};
+  return o;
+}
+
+RigidBody::RigidBody(const std::string &name, const int id, HexMesh m,
+                     std::shared_ptr<const Material> material,
+                     const RigidOptions &options)
+    : Body(name, id), mesh(std::move(m)), material(std::move(material)),
+      options(options), n_global_cells(mesh.cells.size())
+{
+  node_masses.assign(mesh.nodes.size(), 0.);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const GlobalIndex a : mesh.cells[c])
+      node_masses[a] += 0.125 * this->material->density() * mesh.volume[c];
+  const auto point = [&](const std::size_t a)
+  { return vec(mesh.nodes[a][0], mesh.nodes[a][1], mesh.nodes[a][2]); };
+  centre = Vec{};
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+  {
+    mass += node_masses[a];
+    centre += node_masses[a] * point(a);
+  }
+  centre /= broadcast(mass);
+  inertia = Mat::zero();
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+    inertia = inertia + point_inertia(node_masses[a], point(a) - centre);
+  inverse_inertia = inverse(inertia);
+  const auto &v = options.initial_velocity, &w = options.angular_velocity;
+  momentum = mass * vec(v[0], v[1], v[2]);
+  angular_momentum = inertia * vec(w[0], w[1], w[2]);
+}
+
+void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
+{
+  communicator = comm;
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  std::vector<GlobalIndex> ids, ghosts;
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    if (owner[i] == rank)
+      ids.push_back(i);
+  const std::size_t n_owned = ids.size();
+  std::vector<std::size_t> here;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+  {
+    const auto &nodes = mesh.cells[c];
+    if (std::none_of(nodes.begin(), nodes.end(),
+                     [&](const GlobalIndex a) { return owner[a] == rank; }))
+      continue;
+    here.push_back(c);
+    owned_cell.push_back(owner[*std::min_element(nodes.begin(), nodes.end())] ==
+                         rank);
+    for (const GlobalIndex a : nodes)
+      if (owner[a] != rank)
+        ghosts.push_back(a);
+  }
+  std::sort(ghosts.begin(), ghosts.end());
+  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
+  std::unordered_map<GlobalIndex, std::uint32_t> local;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    local[ids[i]] = i;
+
+  nodal_state.resize(ids.size());
+  nodal_state.n_owned = n_owned;
+  nodal_state.global_id = ids;
+  arm.resize(ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const auto &p = mesh.nodes[ids[i]];
+    nodal_state.reference_position[i] = nodal_state.position[i] =
+        vec(p[0], p[1], p[2]);
+    arm[i] = nodal_state.position[i] - centre;
+    nodal_state.force[i] = Vec{};
+    nodal_state.lumped_mass[i] = nodal_state.inertia[i] = node_masses[ids[i]];
+  }
+  for (const std::size_t c : here)
+  {
+    std::array<std::uint32_t, 8> nodes;
+    for (int a = 0; a < 8; ++a)
+      nodes[a] = local.at(mesh.cells[c][a]);
+    cells.push_back(nodes);
+  }
+  double area = 0.;
+  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
+  {
+    std::array<std::size_t, 4> face;
+    std::array<Vec, 4> x;
+    bool complete = true;
+    for (int a = 0; a < 4; ++a)
+    {
+      const GlobalIndex node = mesh.boundary_faces[f][a];
+      const auto found = local.find(node);
+      complete = complete && found != local.end();
+      face[a] = found != local.end() ? found->second : 0;
+      x[a] = vec(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]);
+    }
+    area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
+    if (complete)
+    {
+      faces.push_back(face);
+      face_id.push_back(f);
+    }
+  }
+  typical_spacing = std::sqrt(area / mesh.boundary_faces.size());
+  rigid_velocity.resize(n_owned);
+  set_velocities();
+  mesh = HexMesh();
+  node_masses.clear();
+}
+
+Mat RigidBody::matrix(const std::array<double, 4> &q)
+{
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  return {{vec(1. - 2. * (y * y + z * z), 2. * (x * y - w * z),
+               2. * (x * z + w * y)),
+           vec(2. * (x * y + w * z), 1. - 2. * (x * x + z * z),
+               2. * (y * z - w * x)),
+           vec(2. * (x * z - w * y), 2. * (y * z + w * x),
+               1. - 2. * (x * x + y * y))}};
+}
+
+Vec RigidBody::spin(const Mat &rotation) const
+{
+  if (options.is_prescribed)
+  {
+    const auto &w = options.angular_velocity;
+    return vec(w[0], w[1], w[2]);
+  }
+  return rotation *
+         (inverse_inertia * (transpose(rotation) * angular_momentum));
+}
+
+void RigidBody::set_velocities()
+{
+  const Mat rotation = matrix(quaternion);
+  const Vec velocity = (1. / mass) * momentum, omega = spin(rotation);
+  for (std::size_t i = 0; i < nodal_state.size(); ++i)
+    nodal_state.velocity[i] = velocity + cross(omega, rotation * arm[i]);
+  std::copy_n(nodal_state.velocity.begin(), rigid_velocity.size(),
+              rigid_velocity.begin());
+}
+
+void RigidBody::impose_velocities(const double)
+{
+  if (!options.is_prescribed)
+  {
+    // The kick gave each node its own impulse.
+    ExactSum sums[6];
+    for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    {
+      const Vec change = nodal_state.velocity[i] - rigid_velocity[i];
+      if (norm_square(change) == 0.)
+        continue;
+      const Vec impulse = nodal_state.inertia[i] * change,
+                turn = cross(nodal_state.position[i] - centre, impulse);
+      for (int d = 0; d < 3; ++d)
+      {
+        sums[d].add(impulse[d]);
+        sums[3 + d].add(turn[d]);
+      }
+    }
+    ExactSum::reduce(
+        {&sums[0], &sums[1], &sums[2], &sums[3], &sums[4], &sums[5]},
+        communicator);
+    momentum += vec(sums[0].value(), sums[1].value(), sums[2].value());
+    angular_momentum += vec(sums[3].value(), sums[4].value(), sums[5].value());
+  }
+  set_velocities();
+}
+
+void RigidBody::accumulate_work(const double half_dt)
+{
+  if (!options.is_prescribed)
+    return;
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    if (norm_square(nodal_state.force[i]) > 0.)
+      work.add(-half_dt * dot(nodal_state.force[i], nodal_state.velocity[i]));
+}
+
+void RigidBody::compute_forces(const double, const double dt)
+{
+  centre += (dt / mass) * momentum;
+  Vec omega = spin(matrix(quaternion));
+  for (int i = 0; i < 4 && !options.is_prescribed; ++i)
+    omega = spin(matrix(product(rotation_by(0.5 * dt * omega), quaternion)));
+  quaternion = product(rotation_by(dt * omega), quaternion);
+  double size = 0.;
+  for (const double q : quaternion)
+    size += q * q;
+  for (double &q : quaternion)
+    q /= std::sqrt(size);
+  const Mat rotation = matrix(quaternion);
+  for (std::size_t i = 0; i < nodal_state.size(); ++i)
+  {
+    nodal_state.position[i] = centre + rotation * arm[i];
+    nodal_state.force[i] = Vec{};
+  }
+  set_velocities();
+}
+
+StableStep RigidBody::stable_step() const
+{
+  // A twentieth of a radian.
+  StableStep step;
+  const double omega = norm(spin(matrix(quaternion)));
+  if (omega > 0.)
+    step = {0.05 / omega, 0};
+  return step;
+}
+
+void RigidBody::add_energies(EnergyLedger &ledger) const
+{
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    ledger.kinetic.add(0.5 * nodal_state.inertia[i] *
+                       norm_square(nodal_state.velocity[i]));
+  ledger.external.add(work);
+}
+
+Measures RigidBody::measure() const
+{
+  Measures measures = measure_nodes(nodal_state, communicator);
+  measures.push_back({"internal energy", "J", 0.});
+  const Vec omega = spin(matrix(quaternion));
+  for (int d = 0; d < 3; ++d)
+    measures.push_back(
+        {std::string("angular velocity ") + "xyz"[d], "1/s", omega[d]});
+  return measures;
+}
+
+OutputMesh RigidBody::output_mesh() const
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  OutputMesh out;
+  const std::size_t n = nodal_state.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (int d = 0; d < 3; ++d)
+      out.points.push_back(nodal_state.position[i][d]);
+  std::size_t n_cells = 0;
+  for (std::size_t e = 0; e < cells.size(); ++e)
+    if (owned_cell[e])
+    {
+      ++n_cells;
+      out.connectivity.insert(out.connectivity.end(), cells[e].begin(),
+                              cells[e].end());
+    }
+  add_field(out.point_fields, "displacement", "m", n, 3,
+            [&](const std::size_t i, const unsigned int c) {
+              return nodal_state.position[i][c] -
+                     nodal_state.reference_position[i][c];
+            });
+  add_field(out.point_fields, "velocity", "m/s", n, 3,
+            [&](const std::size_t i, const unsigned int c)
+            { return nodal_state.velocity[i][c]; });
+  add_field(out.cell_fields, "body", "1", n_cells, 1,
+            [&](std::size_t, unsigned int) { return double(id); });
+  add_field(out.cell_fields, "rank", "1", n_cells, 1,
+            [&](std::size_t, unsigned int) { return double(rank); });
+  return out;
+}
+
+void RigidBody::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_array("position", nodal_state.position);
+  visitor.visit_array("velocity", nodal_state.velocity);
+  visitor.visit_array("force", nodal_state.force);
+  visitor.visit_array("inertia", nodal_state.inertia);
+  visitor.visit_array("rigid velocity", rigid_velocity);
+  visitor.visit_array("quaternion", quaternion);
+  visitor.visit_value("centre", centre);
+  visitor.visit_value("momentum", momentum);
+  visitor.visit_value("angular momentum", angular_momentum);
+  visitor.visit_value("external work", work);
+}
+
+ContactSurface RigidBody::contact_surface() const
+{
+  ContactSurface surface;
+  surface.faces = faces;
+  surface.face_id = face_id;
+  for (const auto &face : faces)
+    for (const std::size_t a : face)
+      if (a < nodal_state.n_owned)
+        surface.nodes.push_back(a);
+  std::sort(surface.nodes.begin(), surface.nodes.end());
+  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()),
+                      surface.nodes.end());
+  surface.bulk_modulus = material->bulk_modulus();
+  surface.spacing = typical_spacing;
+  return surface;
+}
+} // namespace sabot

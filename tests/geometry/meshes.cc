@@ -1,0 +1,277 @@
+#include "sabot/base/error.h"
+#include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/mesh_import.h"
+#include "sabot/geometry/round_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+namespace
+{
+using namespace sabot;
+
+double volume(const HexMesh &mesh)
+{
+  double sum = 0.;
+  for (const double v : mesh.volume)
+  {
+    EXPECT_GT(v, 0.);
+    sum += v;
+  }
+  return sum;
+}
+
+TEST(RoundBodies, a_sphere_has_its_volume_and_good_cells)
+{
+  const double exact = 4. / 3. * M_PI * std::pow(5e-3, 3);
+  for (const double h : {2.5e-3, 1.2e-3})
+  {
+    const HexMesh mesh = make_sphere(5e-3, {{1e-3, 2e-3, 3e-3}}, h);
+    EXPECT_NEAR(volume(mesh), exact, 1e-12 * exact);
+    const MeshQuality quality = measure_quality(mesh);
+    EXPECT_GT(quality.scaled_jacobian, 0.4) << quality.text();
+    EXPECT_LT(quality.aspect_ratio, 4.) << quality.text();
+    double low = 1., high = 0.;
+    for (const auto &face : mesh.boundary_faces)
+      for (const GlobalIndex a : face)
+      {
+        const auto &p = mesh.nodes[a];
+        const double r =
+            std::sqrt(std::pow(p[0] - 1e-3, 2) + std::pow(p[1] - 2e-3, 2) +
+                      std::pow(p[2] - 3e-3, 2));
+        low = std::min(low, r);
+        high = std::max(high, r);
+      }
+    // Facets of angle t lie t^2/6 below their corners on average.
+    const double t = M_PI / 2. / (h > 2e-3 ? 2. : 4.);
+    EXPECT_NEAR(high, low, 1e-14);
+    EXPECT_GT(high, 5e-3);
+    EXPECT_LT(high, 5e-3 * (1. + t * t / 6.));
+  }
+}
+
+TEST(RoundBodies, a_graded_cylinder_is_fine_in_the_middle_only)
+{
+  CylinderGrading grading;
+  grading.core_radius = 6e-3;
+  grading.growth_ratio = 1.25;
+  grading.coarsest_cell_size = 6e-3;
+  const double exact = M_PI * 2500e-6 * 10e-3;
+  for (const unsigned int n_cuts : {0u, 2u})
+  {
+    const HexMesh mesh =
+        make_cylinder(50e-3, 10e-3, 2, {{0., 0., 0.}}, 1e-3, n_cuts, grading);
+    EXPECT_NEAR(volume(mesh), n_cuts > 0 ? exact / 4. : exact, 1e-12 * exact);
+    EXPECT_LT(mesh.cells.size(), n_cuts > 0 ? 4000u : 16000u);
+    EXPECT_GT(measure_quality(mesh).scaled_jacobian, 0.5)
+        << measure_quality(mesh).text();
+    EXPECT_LT(measure_quality(mesh).aspect_ratio, 8.)
+        << measure_quality(mesh).text();
+  }
+}
+
+TEST(RoundBodies, noses_have_their_volume_and_length)
+{
+  ProjectileSpecification p;
+  p.radius = 5e-3;
+  p.shaft_length = 20e-3;
+  p.nose_length = 10e-3;
+  p.cell_size = 1e-3;
+  const double shaft = M_PI * 25e-6 * 20e-3;
+  // Tangent ogive: V = pi (L S^2 - L^3/3 - (S - R) S^2 asin(L/S)).
+  const double S = 12.5e-3, L = 10e-3, R = 5e-3;
+  const double ogive =
+      M_PI * (L * S * S - L * L * L / 3. - (S - R) * S * S * std::asin(L / S));
+  const double expected[] = {M_PI * R * R * L / 3., ogive,
+                             2. / 3. * M_PI * R * R * L};
+  int n = 0;
+  for (const Nose nose : {Nose::conical, Nose::ogive, Nose::spherical})
+    for (const bool positive : {true, false})
+    {
+      p.nose = nose;
+      p.axis = n % 3;
+      p.towards_positive = positive;
+      p.centre = {{1e-3, 2e-3, 3e-3}};
+      const HexMesh mesh = make_projectile(p);
+      const double exact = shaft + expected[n / 2];
+      EXPECT_NEAR(volume(mesh), exact, 1e-8 * exact);
+      double low = 1., high = -1.;
+      for (const auto &x : mesh.nodes)
+      {
+        low = std::min(low, x[p.axis]);
+        high = std::max(high, x[p.axis]);
+      }
+      EXPECT_NEAR(high - p.centre[p.axis], 15e-3, 1e-12);
+      EXPECT_NEAR(low - p.centre[p.axis], -15e-3, 1e-12);
+      const double end = positive ? -15e-3 : 15e-3;
+      for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
+        if (mesh.boundary_id[f] == 0)
+        {
+          EXPECT_NEAR(mesh.nodes[mesh.boundary_faces[f][0]][p.axis],
+                      p.centre[p.axis] + end, 1e-12);
+        }
+      EXPECT_GT(measure_quality(mesh).scaled_jacobian, 0.1)
+          << measure_quality(mesh).text();
+      ++n;
+    }
+}
+
+/** Two unit cubes side by side along x, in the three formats. */
+std::string write(const std::string &name, const std::string &text)
+{
+  const std::string file = testing::TempDir() + name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+const char *const gmsh = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+12
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 1
+6 1 0 1
+7 1 1 1
+8 0 1 1
+9 2 0 0
+10 2 1 0
+11 2 0 1
+12 2 1 1
+$EndNodes
+$Elements
+3
+1 3 2 7 1 1 4 8 5
+2 5 2 1 1 1 2 3 4 5 6 7 8
+3 5 2 2 1 2 9 10 3 6 11 12 7
+$EndElements
+)";
+
+const char *const vtk = R"(# vtk DataFile Version 3.0
+two cubes
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 12 double
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+2 0 0
+2 1 0
+2 0 1
+2 1 1
+
+CELLS 2 18
+8 0 1 2 3 4 5 6 7
+8 1 8 9 2 5 10 11 6
+
+CELL_TYPES 2
+12
+12
+)";
+
+const char *const abaqus = R"(*HEADING
+two cubes
+*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+9, 2, 0, 0
+10, 2, 1, 0
+11, 2, 0, 1
+12, 2, 1, 1
+*ELEMENT, TYPE=C3D8, ELSET=EB1
+1, 1, 2, 3, 4, 5, 6, 7, 8
+2, 2, 9, 10, 3, 6, 11, 12, 7
+)";
+
+TEST(MeshImport, reads_gmsh_vtk_and_abaqus)
+{
+  for (const std::string &file :
+       {write("cubes.msh", gmsh), write("cubes.vtk", vtk),
+        write("cubes.inp", abaqus)})
+  {
+    const HexMesh mesh =
+        read_mesh(file, 1e-3, {{1e-3, 0., 0.}}, -1, "Bodies/a/Mesh file");
+    EXPECT_EQ(mesh.cells.size(), 2u) << file;
+    EXPECT_EQ(mesh.nodes.size(), 12u) << file;
+    EXPECT_NEAR(volume(mesh), 2e-9, 1e-21) << file;
+    EXPECT_EQ(mesh.boundary_faces.size(), 10u) << file;
+    EXPECT_NEAR(measure_quality(mesh).scaled_jacobian, 1., 1e-12) << file;
+    double low = 1.;
+    for (const auto &p : mesh.nodes)
+      low = std::min(low, p[0]);
+    EXPECT_NEAR(low, 1e-3, 1e-15);
+  }
+}
+
+TEST(MeshImport, takes_boundary_and_material_ids)
+{
+  const std::string file = write("cubes.msh", gmsh);
+  const HexMesh all =
+      read_mesh(file, 1., {{0., 0., 0.}}, -1, "Bodies/a/Mesh file");
+  int n_marked = 0;
+  for (std::size_t f = 0; f < all.boundary_faces.size(); ++f)
+    if (all.boundary_id[f] == 7)
+    {
+      ++n_marked;
+      for (const GlobalIndex a : all.boundary_faces[f])
+        EXPECT_NEAR(all.nodes[a][0], 0., 1e-12);
+    }
+  EXPECT_EQ(n_marked, 1);
+  const HexMesh part =
+      read_mesh(file, 1., {{0., 0., 0.}}, 2, "Bodies/a/Mesh file");
+  ASSERT_EQ(part.cells.size(), 1u);
+  for (const auto &p : part.nodes)
+    EXPECT_GT(p[0], 0.99);
+}
+
+TEST(MeshImport, says_what_is_wrong)
+{
+  const auto message = [](const std::string &file)
+  {
+    try
+    {
+      read_mesh(file, 1., {{0., 0., 0.}}, -1, "Bodies/a/Mesh file");
+    }
+    catch (const InputError &e)
+    {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message("a.exo").find("Exodus"), std::string::npos);
+  EXPECT_NE(message("a.stl").find(".msh"), std::string::npos);
+  EXPECT_NE(message("/nowhere/a.msh").find("cannot open"), std::string::npos);
+  EXPECT_NE(message(write("bad.msh", "no mesh at all\n")).find("cannot read"),
+            std::string::npos);
+  EXPECT_NE(message(write("bad.vtk", "nothing\n")).find("cannot read"),
+            std::string::npos);
+}
+
+TEST(MeshQuality, sees_an_inverted_cell)
+{
+  BoxSpecification b;
+  b.size = {{1., 1., 1.}};
+  b.cell_size = 1.;
+  HexMesh mesh = make_graded_box(b);
+  EXPECT_NEAR(measure_quality(mesh).scaled_jacobian, 1., 1e-14);
+  mesh.nodes[mesh.cells[0][0]] = {{0.4, 0.4, 0.4}};
+  EXPECT_LT(measure_quality(mesh).scaled_jacobian, 0.);
+}
+} // namespace
