@@ -441,6 +441,8 @@ class Scenes(unittest.TestCase):
                 ("rigid-projectile", (), "transits"),
                 ("fem-erosion", coarse + (
                     "--set", "Bodies/projectile/Geometry=projectile", "--set",
+                    "Bodies/projectile/Nose=conical", "--set",
+                    "Bodies/projectile/Nose length=8 mm", "--set",
                     "Bodies/projectile/Discretization=rigid", "--set",
                     "Bodies/projectile/Centre=0 mm, 0 mm, 30 mm"),
                  "transits")):
