@@ -1,3 +1,4 @@
+#include "sabot/base/error.h"
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/integrator/central_difference.h"
 #include "sabot/output/checkpoint.h"
@@ -294,9 +295,17 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     if (!steps.empty())
       dt = std::min(dt, 1.05 * steps.back());
     dt = std::min(dt, scene.settings.end_time - integrator.time);
-    integrator.advance(dt);
     steps.push_back(dt);
-    integrator.update_topology(steps.size());
+    try
+    {
+      integrator.advance(dt);
+      integrator.update_topology(steps.size());
+    }
+    catch (const PhysicsError &e)
+    {
+      plan.problem = e.what();
+      break;
+    }
     int more = integrator.time < end &&
                (steps.size() < least_steps || since(calibration) < seconds);
     MPI_Bcast(&more, 1, MPI_INT, 0, communicator);

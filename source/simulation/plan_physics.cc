@@ -229,6 +229,7 @@ nlohmann::ordered_json to_json(const PhysicsPlan &physics, const CostPlan &cost)
                                {"value", n.value},
                                {"verdict", n.verdict}});
   plan["warnings"] = physics.warnings;
+  plan["problem"] = cost.problem;
   plan["bodies"] = ordered_json::object();
   for (const CostPlan::Item &item : cost.items)
     plan["bodies"][item.body] = {{item.kind, item.n},
@@ -253,6 +254,9 @@ std::string to_text(const PhysicsPlan &physics, const CostPlan &cost)
            ")\n      " + n.verdict + "\n";
   for (const std::string &warning : physics.warnings)
     out += "warning: " + warning + "\n";
+  if (!cost.problem.empty())
+    out += "warning: the run goes wrong in step " +
+           std::to_string(cost.calibration_steps) + ": " + cost.problem + "\n";
   out += "What it costs\n";
   for (const CostPlan::Item &item : cost.items)
     out += "  " + item.body + ": " + text("%.0f ", item.n) + item.kind +

@@ -72,6 +72,7 @@ struct CostPlan
   double steps, seconds_per_step, set_up_seconds, seconds; // wall
   double memory_bytes, output_bytes, checkpoint_bytes;
   unsigned int calibration_steps;
+  std::string problem; // what ended the first steps, if anything did
 };
 
 /** Dimensionless numbers of a scene, from its parameters alone; before its
