@@ -50,6 +50,28 @@ inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
   }
 }
 
+/** Rotate the strain increments of the middle configuration to the end of the
+    step, where the rotated stress is: by half of @p spin. Without it a
+    hypoelastic update is of first order only and a vibrating, spinning body
+    gains energy. At most @p capacity points. */
+template <std::size_t capacity>
+inline void rotate_strain_to_end(const std::size_t n,
+                                 const double *const spin[3],
+                                 double strain[6][capacity])
+{
+  double half_spin_of[3][capacity];
+  const double *half_spin[3];
+  for (int c = 0; c < 3; ++c)
+  {
+    half_spin[c] = half_spin_of[c];
+    for (std::size_t k = 0; k < n; ++k)
+      half_spin_of[c][k] = 0.5 * spin[c][k];
+  }
+  double *const views[6] = {strain[0], strain[1], strain[2],
+                            strain[3], strain[4], strain[5]};
+  rotate_symmetric(n, half_spin, views);
+}
+
 /** energy += half_volume * stress : strain_increment for @p n points; called
     with the old (rotated) and the new stress it is the trapezoidal rule. */
 inline void half_work(const std::size_t n, const double *const stress[6],

@@ -175,6 +175,7 @@ void Hexahedra::update_stress(const std::size_t begin, const std::size_t m,
     batch_states[s] = &state_data[s * stride + begin];
 
   rotate_symmetric(m, spin, stress);
+  rotate_strain_to_end(m, spin, batch.strain);
   std::size_t first = 0;
   for (const StateVariable &variable : state_variables)
   {

@@ -231,19 +231,7 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
     states[s] = &state_data[s * n + begin];
 
   rotate_symmetric(m, spin, stress);
-  // The strain of the middle configuration belongs to the end of the step as
-  // the stress does: without it the update is of first order only.
-  double half_spin_of[3][batch_size], *strain_of[6];
-  const double *half_spin[3];
-  for (int c = 0; c < 3; ++c)
-  {
-    half_spin[c] = half_spin_of[c];
-    for (std::size_t k = 0; k < m; ++k)
-      half_spin_of[c][k] = 0.5 * spin[c][k];
-  }
-  for (int c = 0; c < 6; ++c)
-    strain_of[c] = batch.strain[c];
-  rotate_symmetric(m, half_spin, strain_of);
+  rotate_strain_to_end(m, spin, batch.strain);
   std::size_t first = 0;
   for (const StateVariable &variable : state_variables)
   {
