@@ -266,9 +266,62 @@ Measures Contact::measure() const
 
 void Contact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit("contact work", &contact_work, 1, sizeof(contact_work));
-  visitor.visit("friction work", &friction_work, 1, sizeof(friction_work));
-  visitor.visit("travelled", &travelled, 1, sizeof(travelled));
-  visitor.visit("penetration", &penetration_over_spacing, 1, sizeof(double));
+  visitor.visit_value("contact work", contact_work);
+  visitor.visit_value("friction work", friction_work);
+  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("penetration", penetration_over_spacing);
+  // Candidates were found where the bodies were at the last search, so they
+  // cannot be found anew. Slots depend on nothing but the nodes.
+  std::vector<SavedGroup> saved;
+  std::vector<NodeKey> face_nodes;
+  for (const Group &group : groups)
+  {
+    saved.push_back({halo.key(group.slot),
+                     std::int64_t(group.last_face - group.first_face),
+                     group.stiffness, group.spacing, group.memory, group.wake});
+    for (std::size_t f = group.first_face; f < group.last_face; ++f)
+      for (const std::size_t slot : face_slots[f])
+        face_nodes.push_back(halo.key(slot));
+  }
+  visitor.visit_resized("groups", saved);
+  visitor.visit_resized("face nodes", face_nodes);
+  if (visitor.is_restoring())
+    restore_groups(saved, face_nodes);
+  // Half of their work along the next step is still to be counted.
+  visitor.visit_array("normal force", normal_force);
+  visitor.visit_array("friction force", friction_force);
+}
+
+void Contact::restore_groups(const std::vector<SavedGroup> &saved,
+                             const std::vector<NodeKey> &face_nodes)
+{
+  std::vector<NodeKey> needed = face_nodes;
+  for (const SavedGroup &group : saved)
+    needed.push_back(group.node);
+  halo.build(bodies, needed, communicator);
+  groups.clear();
+  face_slots.clear();
+  for (const SavedGroup &from : saved)
+  {
+    Group group;
+    group.slot = halo.slot(from.node);
+    group.first_face = face_slots.size();
+    group.last_face = group.first_face + from.n_faces;
+    group.stiffness = from.stiffness;
+    group.spacing = from.spacing;
+    group.memory = from.memory;
+    group.wake = from.wake;
+    for (std::size_t f = group.first_face; f < group.last_face; ++f)
+    {
+      std::array<std::size_t, 4> slots;
+      for (int a = 0; a < 4; ++a)
+        slots[a] = halo.slot(face_nodes[4 * f + a]);
+      face_slots.push_back(slots);
+    }
+    groups.push_back(group);
+  }
+  normal_force.assign(halo.size(), Vec{});
+  friction_force.assign(halo.size(), Vec{});
+  total_force.assign(halo.size(), Vec{});
 }
 } // namespace sabot

@@ -118,17 +118,25 @@ void SelfContact::search()
   const auto before = [](const Pair &p, const Pair &q)
   { return p.first == q.first ? p.second < q.second : p.first < q.first; };
   std::sort(found.begin(), found.end(), before);
-  std::vector<NodeKey> needed;
   for (Pair &pair : found)
   {
     const auto old = std::lower_bound(pairs.begin(), pairs.end(), pair, before);
     if (old != pairs.end() && old->first == pair.first &&
         old->second == pair.second)
       pair.distance = old->distance;
+  }
+  pairs = std::move(found);
+  build_halo();
+}
+
+void SelfContact::build_halo()
+{
+  std::vector<NodeKey> needed;
+  for (const Pair &pair : pairs)
+  {
     needed.push_back(pair.first);
     needed.push_back(pair.second);
   }
-  pairs = std::move(found);
   halo.build(bodies, needed, communicator);
   for (Pair &pair : pairs)
   {
@@ -205,8 +213,16 @@ Measures SelfContact::measure() const
 
 void SelfContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit("contact work", &contact_work, 1, sizeof(contact_work));
-  visitor.visit("friction work", &friction_work, 1, sizeof(friction_work));
-  visitor.visit("travelled", &travelled, 1, sizeof(travelled));
+  visitor.visit_value("contact work", contact_work);
+  visitor.visit_value("friction work", friction_work);
+  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("loose particles", n_loose);
+  // A pair knows at which distance it was first met.
+  visitor.visit_resized("pairs", pairs);
+  if (visitor.is_restoring())
+    build_halo();
+  // Half of their work along the next step is still to be counted.
+  visitor.visit_array("normal force", normal_force);
+  visitor.visit_array("friction force", friction_force);
 }
 } // namespace sabot

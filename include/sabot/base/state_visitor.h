@@ -18,6 +18,35 @@ public:
   /** @p n entries of @p size bytes each. */
   virtual void visit(const std::string &name, void *data, std::size_t n,
                      std::size_t size) = 0;
+  /** Entries that the next visit of @p name has: @p n when the state is saved,
+      what was saved when it is overwritten. */
+  virtual std::size_t n_entries(const std::string &name, std::size_t n) const
+  {
+    (void)name;
+    return n;
+  }
+  /** Whether the arrays are overwritten; what follows from them must then be
+      made anew. */
+  virtual bool is_restoring() const { return false; }
+
+  /** An array that has the length it must have. */
+  template <typename Array>
+  void visit_array(const std::string &name, Array &data)
+  {
+    visit(name, data.data(), data.size(), sizeof(data[0]));
+  }
+  /** An array whose length is part of the state. */
+  template <typename Array>
+  void visit_resized(const std::string &name, Array &data)
+  {
+    data.resize(n_entries(name, data.size()));
+    visit_array(name, data);
+  }
+  template <typename T>
+  void visit_value(const std::string &name, T &value)
+  {
+    visit(name, &value, 1, sizeof(value));
+  }
 };
 } // namespace sabot
 

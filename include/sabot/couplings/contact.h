@@ -56,6 +56,17 @@ private:
     /** Distance the bodies may travel before the node can touch a face. */
     double wake = 0.;
   };
+  /** A group as a checkpoint holds it; the nodes of its faces stand apart. */
+  struct SavedGroup
+  {
+    NodeKey node;
+    std::int64_t n_faces;
+    double stiffness, spacing;
+    ContactMemory memory;
+    double wake;
+  };
+  void restore_groups(const std::vector<SavedGroup> &saved,
+                      const std::vector<NodeKey> &face_nodes);
   /** Part of the depth that repels; updates the memory. */
   static double effective_depth(ContactMemory &memory, const double depth,
                                 const double largest_change);

@@ -46,6 +46,8 @@ private:
     std::size_t slot[2];
   };
   void search();
+  /** Slots of the nodes of all pairs. Collective. */
+  void build_halo();
 
   const std::vector<Body *> bodies;
   const SelfContactOptions options;
