@@ -76,8 +76,9 @@ void Contact::search()
   for (const Group &group : groups)
     if (group.slot < halo.n_owned())
       memories.emplace_back(halo.key(group.slot), group.memory);
-  const SearchResult found = search_contacts(bodies, surfaces, pairs, memories,
-                                             spacing, skin, communicator);
+  const SearchResult found =
+      search_contacts(bodies, surfaces, pairs, memories, spacing, skin,
+                      options.shear_limit < 1e300, communicator);
 
   // Keep the groups in which any node is owned here: whoever owns a node
   // computes all that acts on it, from the same numbers in the same order.
@@ -151,6 +152,7 @@ void Contact::search()
     group.stiffness =
         c[first].share * options.stiffness_scale * modulus * group.spacing;
     group.area = c[first].share * group.spacing * group.spacing / sides;
+    group.area_vector = (1. / sides) * c[first].area;
     groups.push_back(group);
   }
   normal_force.assign(halo.size(), Vec{});
@@ -163,6 +165,14 @@ std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
 {
   constexpr double cosine = 0.5;
   const Vec p = halo.position[group.slot];
+  const double touching = 1e-6 * group.spacing;
+  const auto approach = [&](const std::size_t f, const FaceProjection &to)
+  {
+    Vec v = halo.velocity[group.slot];
+    for (int a = 0; a < 4; ++a)
+      v -= to.weight[a] * halo.velocity[face_slots[f][a]];
+    return -dot(v, to.face_normal);
+  };
   std::ptrdiff_t closest = -1;
   for (std::size_t k = group.first_face; k < group.last_face; ++k)
   {
@@ -172,7 +182,7 @@ std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
       x[a] = halo.position[face_slots[f][a]];
     // With a margin, so that faces with the same closest point stay in.
     if (closest >= 0 &&
-        is_farther(p, x, 1.001 * std::sqrt(best.distance_square)))
+        is_farther(p, x, 1.001 * std::sqrt(best.distance_square) + touching))
       continue;
     const FaceProjection projection = project_on_face(p, x);
     if (side != nullptr && dot(projection.face_normal, *side) < cosine)
@@ -182,9 +192,14 @@ std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
     const bool tie =
         std::abs(projection.distance_square - best.distance_square) <=
         1e-10 * best.distance_square;
+    // Of faces that it touches, the one it moves against.
+    const bool touches_both =
+        closest >= 0 && std::max(projection.distance_square,
+                                 best.distance_square) < touching * touching;
     if (closest < 0 ||
-        (tie ? projection.facing > best.facing
-             : projection.distance_square < best.distance_square))
+        (touches_both ? approach(f, projection) > approach(closest, best)
+         : tie        ? projection.facing > best.facing
+                      : projection.distance_square < best.distance_square))
     {
       best = projection;
       closest = f;
@@ -268,7 +283,19 @@ void Contact::add_forces(const double dt)
   std::fill(normal_force.begin(), normal_force.end(), Vec{});
   std::fill(friction_force.begin(), friction_force.end(), Vec{});
   if (dt <= 0.)
+  {
+    // Where everything starts: bodies may touch already.
+    for (Group &group : groups)
+    {
+      FaceProjection projection;
+      if (closest_face(group, projection) < 0)
+        continue;
+      group.memory.side = projection.face_normal;
+      if (projection.gap > -1e-6 * group.spacing)
+        group.memory.depth = group.memory.offset = 0.;
+    }
     return;
+  }
   for (Group &group : groups)
   {
     if (travelled < group.wake)
@@ -306,10 +333,13 @@ void Contact::add_forces(const double dt)
     const double pressing = k * depth + damping;
     const Vec sliding = v - normal_rate * n;
     const double speed = norm(sliding);
+    const double area = norm_square(group.area_vector) > 0.
+                            ? std::max(0., -dot(group.area_vector, n))
+                            : group.area;
     // Friction cannot do more than stop the sliding within the step.
     const double drag = speed > 0.
                             ? std::min({friction_coefficient(speed) * pressing,
-                                        options.shear_limit * group.area,
+                                        options.shear_limit * area,
                                         0.5 * reduced_mass * speed / dt}) /
                                   speed
                             : 0.;
@@ -368,9 +398,10 @@ void Contact::visit_state(StateVisitor &visitor)
   std::vector<NodeKey> face_nodes;
   for (const Group &group : groups)
   {
-    saved.push_back(
-        {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
-         group.stiffness, group.spacing, group.area, group.memory, group.wake});
+    saved.push_back({halo.key(group.slot),
+                     std::int64_t(group.last_face - group.first_face),
+                     group.stiffness, group.spacing, group.area,
+                     group.area_vector, group.memory, group.wake});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));
@@ -403,6 +434,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     group.stiffness = from.stiffness;
     group.spacing = from.spacing;
     group.area = from.area;
+    group.area_vector = from.area_vector;
     group.memory = from.memory;
     group.wake = from.wake;
     for (std::size_t f = group.first_face; f < group.last_face; ++f)

@@ -143,7 +143,7 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
                              const std::vector<ContactPair> &pairs,
                              const ContactMemories &memories,
                              const double spacing, const double skin,
-                             MPI_Comm communicator)
+                             const bool with_areas, MPI_Comm communicator)
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
@@ -232,6 +232,19 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
   {
     const Body &body = *bodies[pair.nodes_of];
     const NodalState &nodes = body.nodes();
+    AlignedVector<Vec> areas;
+    if (with_areas)
+    {
+      areas.assign(nodes.size(), Vec{});
+      for (const auto &face : surfaces[pair.nodes_of].faces)
+      {
+        const Vec area =
+            0.5 * cross(nodes.position[face[2]] - nodes.position[face[0]],
+                        nodes.position[face[3]] - nodes.position[face[1]]);
+        for (const std::size_t a : face)
+          areas[a] += 0.25 * area;
+      }
+    }
     const auto try_node = [&](const std::size_t i, const double share)
     {
       const Vec x = nodes.position[i];
@@ -261,7 +274,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
       }
       const std::int64_t last = near_faces.size();
       if (last > first)
-        candidates.push_back({key, share, first, last, memory});
+        candidates.push_back(
+            {key, share, first, last, memory, with_areas ? areas[i] : Vec{}});
     };
     if (pair.loose_nodes_only)
     {

@@ -51,9 +51,9 @@ std::vector<Check> rigid_rebound()
   world.integrator.initialize();
   const double energy = world.total_energy();
   double deepest = 0.;
-  while (world.integrator.time < 30e-6)
+  while (world.integrator.time < 15e-6)
   {
-    world.integrator.advance(1e-9);
+    world.integrator.advance(4e-10);
     deepest = std::max(deepest, energy - world.energies()[0]);
   }
   return {{"speed of rebound", v, measure(*world.bodies[1], "velocity x"),
@@ -111,14 +111,13 @@ Slide slide(const double weight, const double v, const ContactOptions &options,
   world.distribute();
   world.integrator.initialize();
   Slide result{};
-  double start = measure(*world.bodies[0], "velocity x"), x = 0.;
-  (void)start;
+  double x = 0.;
   while (world.integrator.time < end)
   {
     const double dt = world.advance(0.5);
     result.velocity = measure(*world.bodies[0], "velocity x");
     x += dt * result.velocity;
-    if (std::isnan(result.stopped_at) && result.velocity <= 0.)
+    if (std::isnan(result.stopped_at) && result.velocity <= 0.02 * v)
     {
       result.stopped_at = world.integrator.time;
       result.distance = x;
@@ -136,8 +135,9 @@ std::vector<Check> sliding()
   ContactOptions options;
   options.friction = mu;
   const Slide stop = slide(g, v, options, 20e-6);
-  checks.push_back({"stopping time", v / (mu * g), stop.stopped_at,
-                    0.02 * v / (mu * g), "s", "v/(mu g)"});
+  checks.push_back({"time to a fiftieth of the speed", 0.98 * v / (mu * g),
+                    stop.stopped_at, 0.02 * v / (mu * g), "s",
+                    "0.98 v/(mu g)"});
   checks.push_back({"stopping distance", v * v / (2. * mu * g), stop.distance,
                     0.02 * v * v / (2. * mu * g), "m", "v^2/(2 mu g)"});
   const Slide half = slide(g, v, options, 8e-6);
@@ -174,7 +174,7 @@ std::vector<Check> sliding()
     so that one dimension is exact. */
 void impact_of_bars(std::vector<Check> &checks, const bool particles)
 {
-  const double length = 40e-3, w = 2e-3, v = 10., c = std::sqrt(E / rho);
+  const double length = 100e-3, w = 2e-3, v = 10., c = std::sqrt(E / rho);
   World world;
   FemOptions fem;
   fem.initial_velocity = {{v, 0., 0.}};

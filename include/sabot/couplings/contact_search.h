@@ -41,6 +41,7 @@ struct ContactCandidate
   double share;                       // ContactSurface::node_share
   std::int64_t first_face, last_face; // of SearchResult::face_of_candidate
   ContactMemory memory;
+  Vec area; // quarters of the vectors of its own faces, where asked for [m^2]
 };
 
 struct SearchResult
@@ -65,7 +66,7 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
                              const std::vector<ContactPair> &pairs,
                              const ContactMemories &memories,
                              const double spacing, const double skin,
-                             MPI_Comm communicator);
+                             const bool with_areas, MPI_Comm communicator);
 
 /** Largest speed at which a node of one body of a pair can close in on a node
     of the other [m/s]: speeds are taken from the middle of all velocities.
