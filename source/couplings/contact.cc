@@ -15,10 +15,13 @@ Contact::Contact(const std::string &name, const std::vector<Body *> &bodies,
 
 void Contact::initialize()
 {
+  for (const ContactPair &pair : pairs)
+    body_pairs.emplace_back(pair.faces_of, pair.nodes_of);
+  update_surfaces();
   skin = 1e300;
   for (const ContactPair &pair : pairs)
     for (const int b : {pair.faces_of, pair.nodes_of})
-      skin = std::min(skin, 0.5 * bodies[b]->contact_surface().spacing);
+      skin = std::min(skin, 0.5 * surfaces[b].spacing);
   search();
   halo.update();
   double worst = 0.;
@@ -37,13 +40,24 @@ void Contact::initialize()
                 communicator);
 }
 
+void Contact::update_surfaces()
+{
+  surfaces.assign(bodies.size(), ContactSurface());
+  for (const ContactPair &pair : pairs)
+    for (const int b : {pair.faces_of, pair.nodes_of})
+      if (surfaces[b].spacing == 0.)
+        surfaces[b] = bodies[b]->contact_surface();
+}
+
 void Contact::update_search(const unsigned int, const double dt)
 {
   // Both sides move: candidates hold until together they covered the skin.
-  travelled += 2. * largest_speed(bodies, communicator) * dt;
+  travelled += largest_closing_speed(bodies, body_pairs, communicator) * dt;
   unsigned int version = 0;
   for (const Body *body : bodies)
     version += body->contact_surface_version();
+  if (version != surface_version)
+    update_surfaces();
   if (travelled > skin || version != surface_version)
     search();
   surface_version = version;
@@ -55,73 +69,90 @@ void Contact::search()
   int rank;
   MPI_Comm_rank(communicator, &rank);
   double spacing = 0.;
-  std::vector<double> spacing_of(bodies.size(), 0.),
-      modulus_of(bodies.size(), 0.);
   for (const ContactPair &pair : pairs)
     for (const int b : {pair.faces_of, pair.nodes_of})
-      if (spacing_of[b] == 0.)
-      {
-        const ContactSurface surface = bodies[b]->contact_surface();
-        spacing_of[b] = surface.spacing;
-        modulus_of[b] = surface.bulk_modulus;
-        spacing = std::max(spacing, surface.spacing);
-      }
+      spacing = std::max(spacing, surfaces[b].spacing);
   ContactMemories memories;
   for (const Group &group : groups)
     if (group.slot < halo.n_owned())
       memories.emplace_back(halo.key(group.slot), group.memory);
   const SearchResult found =
-      search_contacts(bodies, pairs, memories, spacing + skin, communicator);
+      search_contacts(bodies, surfaces, pairs, memories, spacing, skin,
+                      options.shear_limit < 1e300, communicator);
 
   // Keep the groups in which any node is owned here: whoever owns a node
   // computes all that acts on it, from the same numbers in the same order.
   const auto owned = [&](const std::int32_t body, const GlobalIndex node)
   { return bodies[body]->node_owner[node] == rank; };
+  std::vector<char> face_is_mine(found.faces.size(), 0),
+      face_is_needed(found.faces.size(), 0);
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    for (const GlobalIndex a : found.faces[f].node)
+      face_is_mine[f] |= owned(found.faces[f].body, a);
   std::vector<NodeKey> needed;
   std::vector<std::pair<std::size_t, std::size_t>> kept;
   const auto &c = found.candidates;
+  const auto &faces_of = found.face_of_candidate;
   for (std::size_t first = 0, last; first < c.size(); first = last)
   {
     bool relevant = owned(c[first].node.body, c[first].node.node);
     for (last = first; last < c.size() && c[last].node == c[first].node; ++last)
-    {
-      const FaceNodes &face = found.faces[c[last].face];
-      for (const GlobalIndex a : face.node)
-        relevant = relevant || owned(face.body, a);
-    }
+      for (auto k = c[last].first_face; k < c[last].last_face && !relevant; ++k)
+        relevant = face_is_mine[faces_of[k]];
     if (!relevant)
       continue;
     kept.emplace_back(first, last);
     needed.push_back(c[first].node);
-    for (std::size_t k = first; k < last; ++k)
-      for (const GlobalIndex a : found.faces[c[k].face].node)
-        needed.push_back({found.faces[c[k].face].body, 0, a});
+    for (std::size_t i = first; i < last; ++i)
+      for (auto k = c[i].first_face; k < c[i].last_face; ++k)
+        face_is_needed[faces_of[k]] = 1;
   }
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    if (face_is_needed[f])
+      for (const GlobalIndex a : found.faces[f].node)
+        needed.push_back({found.faces[f].body, 0, a});
   halo.build(bodies, needed, communicator);
 
-  groups.clear();
   face_slots.clear();
+  std::vector<std::size_t> face_number(found.faces.size(), 0);
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    if (face_is_needed[f])
+    {
+      face_number[f] = face_slots.size();
+      std::array<std::size_t, 4> slots;
+      for (int a = 0; a < 4; ++a)
+        slots[a] = halo.slot({found.faces[f].body, 0, found.faces[f].node[a]});
+      face_slots.push_back(slots);
+    }
+  groups.clear();
+  face_of_group.clear();
   for (const auto &[first, last] : kept)
   {
     Group group;
     group.slot = halo.slot(c[first].node);
     group.memory = c[first].memory;
-    group.first_face = face_slots.size();
+    group.first_face = face_of_group.size();
     const std::int32_t body = c[first].node.body;
-    group.spacing = spacing_of[body];
-    double modulus = modulus_of[body];
-    for (std::size_t k = first; k < last; ++k)
+    group.spacing = surfaces[body].spacing;
+    double modulus = surfaces[body].bulk_modulus;
+    // Where both sides' nodes meet faces, each carries half of the shear.
+    double sides = 1.;
+    for (std::size_t i = first; i < last; ++i)
     {
-      const FaceNodes &face = found.faces[c[k].face];
-      modulus = std::min(modulus, modulus_of[face.body]);
-      std::array<std::size_t, 4> slots;
-      for (int a = 0; a < 4; ++a)
-        slots[a] = halo.slot({face.body, 0, face.node[a]});
-      face_slots.push_back(slots);
+      const int other = found.faces[faces_of[c[i].first_face]].body;
+      modulus = std::min(modulus, surfaces[other].bulk_modulus);
+      for (const ContactPair &pair : pairs)
+        if (pair.faces_of == body && pair.nodes_of == other &&
+            !pair.loose_nodes_only)
+          sides = 2.;
+      for (auto k = c[i].first_face; k < c[i].last_face; ++k)
+        face_of_group.push_back(face_number[faces_of[k]]);
     }
-    group.last_face = face_slots.size();
+    group.last_face = face_of_group.size();
     group.stiffness =
         c[first].share * options.stiffness_scale * modulus * group.spacing;
+    group.area = c[first].share * group.spacing * group.spacing / sides;
+    group.area_vector = (1. / sides) * c[first].area;
     groups.push_back(group);
   }
   normal_force.assign(halo.size(), Vec{});
@@ -129,35 +160,109 @@ void Contact::search()
   total_force.assign(halo.size(), Vec{});
 }
 
-std::ptrdiff_t Contact::closest_face(const Group &group,
-                                     FaceProjection &best) const
+std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
+                                     const Vec *const side) const
 {
+  constexpr double cosine = 0.5;
   const Vec p = halo.position[group.slot];
-  std::ptrdiff_t closest = -1;
-  for (std::size_t f = group.first_face; f < group.last_face; ++f)
+  const double touching = 1e-6 * group.spacing;
+  const auto approach = [&](const std::size_t f, const FaceProjection &to)
   {
+    Vec v = halo.velocity[group.slot];
+    for (int a = 0; a < 4; ++a)
+      v -= to.weight[a] * halo.velocity[face_slots[f][a]];
+    return -dot(v, to.face_normal);
+  };
+  std::ptrdiff_t closest = -1;
+  for (std::size_t k = group.first_face; k < group.last_face; ++k)
+  {
+    const std::size_t f = face_of_group[k];
     std::array<Vec, 4> x;
     for (int a = 0; a < 4; ++a)
       x[a] = halo.position[face_slots[f][a]];
     // With a margin, so that faces with the same closest point stay in.
     if (closest >= 0 &&
-        is_farther(p, x, 1.001 * std::sqrt(best.distance_square)))
+        is_farther(p, x, 1.001 * std::sqrt(best.distance_square) + touching))
       continue;
     const FaceProjection projection = project_on_face(p, x);
+    if (side != nullptr && dot(projection.face_normal, *side) < cosine)
+      continue;
     // Faces that share the closest edge: the one that faces the point more
     // squarely tells the right side.
     const bool tie =
         std::abs(projection.distance_square - best.distance_square) <=
         1e-10 * best.distance_square;
+    // Of faces that it touches, the one it moves against.
+    const bool touches_both =
+        closest >= 0 && std::max(projection.distance_square,
+                                 best.distance_square) < touching * touching;
     if (closest < 0 ||
-        (tie ? projection.facing > best.facing
-             : projection.distance_square < best.distance_square))
+        (touches_both ? approach(f, projection) > approach(closest, best)
+         : tie        ? projection.facing > best.facing
+                      : projection.distance_square < best.distance_square))
     {
       best = projection;
       closest = f;
     }
   }
   return closest;
+}
+
+double Contact::relative_speed(const Group &group, const std::ptrdiff_t face,
+                               const FaceProjection &projection) const
+{
+  Vec v = halo.velocity[group.slot];
+  for (int a = 0; a < 4; ++a)
+    v -= projection.weight[a] * halo.velocity[face_slots[face][a]];
+  return norm(v);
+}
+
+std::ptrdiff_t Contact::holding_face(Group &group, FaceProjection &best,
+                                     const double dt) const
+{
+  // Sideways, in spacings, to which a face reaches beyond its rim: equal
+  // cross-sections that meet bulge by unequal fractions of this.
+  constexpr double rim = 0.1;
+  constexpr double cosine = 0.5; // as closest_face()
+  ContactMemory &memory = group.memory;
+  const std::ptrdiff_t closest = closest_face(group, best);
+  if (closest < 0)
+    return -1;
+  const bool was_inside = memory.depth > 0.,
+             has_side = norm_square(memory.side) > 0.;
+  const double tolerance = rim * group.spacing;
+  if (has_side && (was_inside || best.gap < tolerance) &&
+      !(best.gap < 0. && dot(best.face_normal, memory.side) >= cosine))
+  {
+    FaceProjection held;
+    const std::ptrdiff_t f = closest_face(group, held, &memory.side);
+    if (f >= 0 && held.along < 0.)
+    {
+      const double sideways = std::sqrt(
+          std::max(0., held.distance_square - held.along * held.along));
+      const double motion = 2. * relative_speed(group, f, held) * dt;
+      if (sideways < tolerance && (was_inside || -held.along <= motion))
+      {
+        best = held;
+        // Let go gradually past the rim.
+        best.gap = held.along * (1. - sideways / tolerance);
+        best.normal = held.face_normal;
+        memory.side = held.face_normal;
+        return f;
+      }
+    }
+  }
+  memory.side = best.face_normal;
+  return best.gap < 0. ? closest : -1;
+}
+
+double Contact::friction_coefficient(const double speed) const
+{
+  if (options.dynamic_friction < 0.)
+    return options.friction;
+  return options.dynamic_friction +
+         (options.friction - options.dynamic_friction) *
+             std::exp(-options.friction_decay * speed);
 }
 
 double Contact::effective_depth(ContactMemory &memory, const double depth,
@@ -178,14 +283,26 @@ void Contact::add_forces(const double dt)
   std::fill(normal_force.begin(), normal_force.end(), Vec{});
   std::fill(friction_force.begin(), friction_force.end(), Vec{});
   if (dt <= 0.)
+  {
+    // Where everything starts: bodies may touch already.
+    for (Group &group : groups)
+    {
+      FaceProjection projection;
+      if (closest_face(group, projection) < 0)
+        continue;
+      group.memory.side = projection.face_normal;
+      if (projection.gap > -1e-6 * group.spacing)
+        group.memory.depth = group.memory.offset = 0.;
+    }
     return;
+  }
   for (Group &group : groups)
   {
     if (travelled < group.wake)
       continue; // still apart
     FaceProjection projection;
-    const std::ptrdiff_t f = closest_face(group, projection);
-    if (f < 0 || projection.gap >= 0.)
+    const std::ptrdiff_t f = holding_face(group, projection, dt);
+    if (f < 0)
     {
       group.memory.depth = group.memory.offset = 0.;
       group.wake = travelled + 0.99 * std::sqrt(projection.distance_square);
@@ -216,11 +333,16 @@ void Contact::add_forces(const double dt)
     const double pressing = k * depth + damping;
     const Vec sliding = v - normal_rate * n;
     const double speed = norm(sliding);
+    const double area = norm_square(group.area_vector) > 0.
+                            ? std::max(0., -dot(group.area_vector, n))
+                            : group.area;
     // Friction cannot do more than stop the sliding within the step.
-    const double drag = speed > 0. ? std::min(options.friction * pressing,
-                                              0.5 * reduced_mass * speed / dt) /
-                                         speed
-                                   : 0.;
+    const double drag = speed > 0.
+                            ? std::min({friction_coefficient(speed) * pressing,
+                                        options.shear_limit * area,
+                                        0.5 * reduced_mass * speed / dt}) /
+                                  speed
+                            : 0.;
     const Vec fn = pressing * n, ft = -drag * sliding;
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;
@@ -279,9 +401,10 @@ void Contact::visit_state(StateVisitor &visitor)
   {
     saved.push_back({halo.key(group.slot),
                      std::int64_t(group.last_face - group.first_face),
-                     group.stiffness, group.spacing, group.memory, group.wake});
-    for (std::size_t f = group.first_face; f < group.last_face; ++f)
-      for (const std::size_t slot : face_slots[f])
+                     group.stiffness, group.spacing, group.area,
+                     group.area_vector, group.memory, group.wake});
+    for (std::size_t k = group.first_face; k < group.last_face; ++k)
+      for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));
   }
   visitor.visit_resized("groups", saved);
@@ -302,6 +425,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
   halo.build(bodies, needed, communicator);
   groups.clear();
   face_slots.clear();
+  face_of_group.clear();
   for (const SavedGroup &from : saved)
   {
     Group group;
@@ -310,6 +434,8 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     group.last_face = group.first_face + from.n_faces;
     group.stiffness = from.stiffness;
     group.spacing = from.spacing;
+    group.area = from.area;
+    group.area_vector = from.area_vector;
     group.memory = from.memory;
     group.wake = from.wake;
     for (std::size_t f = group.first_face; f < group.last_face; ++f)
@@ -317,6 +443,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
       std::array<std::size_t, 4> slots;
       for (int a = 0; a < 4; ++a)
         slots[a] = halo.slot(face_nodes[4 * f + a]);
+      face_of_group.push_back(face_slots.size());
       face_slots.push_back(slots);
     }
     groups.push_back(group);

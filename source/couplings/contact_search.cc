@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace sabot
 {
@@ -50,41 +49,83 @@ struct Box
   }
 };
 
-/** Faces by the buckets that their inflated boxes cover. */
+/** Faces by the buckets of a regular grid that their boxes cover, as one
+    compressed list. */
 class Buckets
 {
 public:
-  Buckets(const double size) : size(size) {}
+  /** @p boxes: of the items; @p size: of a bucket, made larger where boxes are
+      far between. */
+  Buckets(const std::vector<Box> &boxes, double size)
+  {
+    Box all;
+    for (const Box &box : boxes)
+    {
+      all.add(box.low);
+      all.add(box.high);
+    }
+    low = all.low;
+    if (boxes.empty())
+      return;
+    const double most = 20. * boxes.size() + 1000.;
+    for (;; size *= 1.3)
+    {
+      double total = 1.;
+      for (int d = 0; d < 3; ++d)
+      {
+        const double cells = std::floor((all.high[d] - low[d]) / size) + 1.;
+        total *= cells;
+        n[d] = std::int64_t(std::min(cells, 1e9));
+      }
+      if (total <= most)
+        break;
+    }
+    scale = 1. / size;
+    start.assign(n[0] * n[1] * n[2] + 1, 0);
+    for (const Box &box : boxes)
+      for_all(box, [&](const std::int64_t bucket) { ++start[bucket + 1]; });
+    for (std::size_t k = 1; k < start.size(); ++k)
+      start[k] += start[k - 1];
+    items.resize(start.back());
+    std::vector<std::int32_t> next(start.begin(), start.end() - 1);
+    for (std::size_t item = 0; item < boxes.size(); ++item)
+      for_all(boxes[item],
+              [&](const std::int64_t bucket) { items[next[bucket]++] = item; });
+  }
+  /** Items whose box may contain @p x, ascending. */
+  std::pair<const std::int32_t *, const std::int32_t *> find(const Vec x) const
+  {
+    std::array<std::int64_t, 3> i;
+    for (int d = 0; d < 3; ++d)
+    {
+      const double cell = std::floor((x[d] - low[d]) * scale);
+      if (!(cell >= 0. && cell < double(n[d])))
+        return {nullptr, nullptr};
+      i[d] = std::int64_t(cell);
+    }
+    const std::int64_t bucket = (i[2] * n[1] + i[1]) * n[0] + i[0];
+    return {items.data() + start[bucket], items.data() + start[bucket + 1]};
+  }
 
-  void insert(const Box &box, const std::int64_t item)
+private:
+  template <typename Action>
+  void for_all(const Box &box, const Action &action) const
   {
     std::array<std::int64_t, 3> a, b;
     for (int d = 0; d < 3; ++d)
     {
-      a[d] = index(box.low[d]);
-      b[d] = index(box.high[d]);
+      a[d] = std::int64_t((box.low[d] - low[d]) * scale);
+      b[d] = std::min(std::int64_t((box.high[d] - low[d]) * scale), n[d] - 1);
     }
     for (std::int64_t k = a[2]; k <= b[2]; ++k)
       for (std::int64_t j = a[1]; j <= b[1]; ++j)
         for (std::int64_t i = a[0]; i <= b[0]; ++i)
-          table[key(i, j, k)].push_back(item);
+          action((k * n[1] + j) * n[0] + i);
   }
-  const std::vector<std::int64_t> *find(const Vec x) const
-  {
-    const auto found = table.find(key(index(x[0]), index(x[1]), index(x[2])));
-    return found == table.end() ? nullptr : &found->second;
-  }
-
-private:
-  std::int64_t index(const double x) const { return std::floor(x / size); }
-  static std::int64_t key(const std::int64_t i, const std::int64_t j,
-                          const std::int64_t k)
-  {
-    constexpr std::int64_t mask = (1 << 21) - 1;
-    return (i & mask) << 42 | (j & mask) << 21 | (k & mask);
-  }
-  const double size;
-  std::unordered_map<std::int64_t, std::vector<std::int64_t>> table;
+  Vec low;
+  double scale = 0.;
+  std::array<std::int64_t, 3> n{{0, 0, 0}};
+  std::vector<std::int32_t> start, items;
 };
 
 Box box_of_faces(const Body &body, const ContactSurface &surface)
@@ -98,13 +139,21 @@ Box box_of_faces(const Body &body, const ContactSurface &surface)
 } // namespace
 
 SearchResult search_contacts(const std::vector<Body *> &bodies,
+                             const std::vector<ContactSurface> &surfaces,
                              const std::vector<ContactPair> &pairs,
                              const ContactMemories &memories,
-                             const double reach, MPI_Comm communicator)
+                             const double spacing, const double skin,
+                             const bool with_areas, MPI_Comm communicator)
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  std::vector<ContactSurface> surfaces(bodies.size());
+  // A node that went deeper than a spacing still sees the face it came by.
+  const double deepest_known = 3. * spacing;
+  double deepest = spacing;
+  for (const auto &[key, memory] : memories)
+    deepest = std::max(deepest, std::min(memory.depth, deepest_known));
+  MPI_Allreduce(MPI_IN_PLACE, &deepest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  const double reach = deepest + skin;
   std::vector<Box> face_box(bodies.size()), node_box(bodies.size());
   std::vector<char> used(bodies.size(), 0);
   for (const ContactPair &pair : pairs)
@@ -112,7 +161,6 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (used[b])
     {
-      surfaces[b] = bodies[b]->contact_surface();
       face_box[b] = box_of_faces(*bodies[b], surfaces[b]);
       for (const std::size_t i : surfaces[b].nodes)
         node_box[b].add(bodies[b]->nodes().position[i]);
@@ -159,44 +207,75 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
             [](const FaceNodes &a, const FaceNodes &b)
             { return a.body != b.body ? a.body < b.body : a.id < b.id; });
 
-  // A bucket of about a face keeps both lists and look-ups short.
-  double face_size = reach;
+  // Faces of a body are contiguous.
   std::vector<Box> boxes(result.faces.size());
+  std::vector<std::size_t> first_face(bodies.size() + 1, 0);
   for (std::size_t f = 0; f < result.faces.size(); ++f)
   {
     for (const Vec x : result.faces[f].x)
       boxes[f].add(x);
     boxes[f].inflate(reach);
+    ++first_face[result.faces[f].body + 1];
   }
-  std::vector<Buckets> buckets(bodies.size(), Buckets(2. * face_size));
-  for (std::size_t f = 0; f < result.faces.size(); ++f)
-    buckets[result.faces[f].body].insert(boxes[f], f);
+  std::vector<Buckets> buckets;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+  {
+    first_face[b + 1] += first_face[b];
+    buckets.emplace_back(std::vector<Box>(boxes.begin() + first_face[b],
+                                          boxes.begin() + first_face[b + 1]),
+                         reach);
+  }
 
   std::vector<ContactCandidate> candidates;
+  std::vector<std::int64_t> near_faces;
   for (const ContactPair &pair : pairs)
   {
     const Body &body = *bodies[pair.nodes_of];
     const NodalState &nodes = body.nodes();
+    AlignedVector<Vec> areas;
+    if (with_areas)
+    {
+      areas.assign(nodes.size(), Vec{});
+      for (const auto &face : surfaces[pair.nodes_of].faces)
+      {
+        const Vec area =
+            0.5 * cross(nodes.position[face[2]] - nodes.position[face[0]],
+                        nodes.position[face[3]] - nodes.position[face[1]]);
+        for (const std::size_t a : face)
+          areas[a] += 0.25 * area;
+      }
+    }
     const auto try_node = [&](const std::size_t i, const double share)
     {
       const Vec x = nodes.position[i];
       if (!face_box[pair.faces_of].contains(x))
         return;
-      const auto *const near = buckets[pair.faces_of].find(x);
-      if (near == nullptr)
+      const auto near = buckets[pair.faces_of].find(x);
+      if (near.first == near.second)
         return;
       const NodeKey key{pair.nodes_of, 0, nodes.global_id[i]};
       const auto known = std::lower_bound(memories.begin(), memories.end(), key,
                                           [](const auto &m, const NodeKey &k)
                                           { return m.first < k; });
-      const ContactMemory memory =
-          known != memories.end() && known->first == key ? known->second
-                                                         : ContactMemory();
-      for (const std::int64_t f : *near)
-        if (boxes[f].contains(x) && !is_farther(x, result.faces[f].x, reach) &&
+      ContactMemory memory;
+      if (known != memories.end() && known->first == key)
+        memory = known->second;
+      const double my_reach =
+          std::clamp(memory.depth, spacing, deepest_known) + skin;
+      const std::int64_t first = near_faces.size();
+      for (const std::int32_t *item = near.first; item != near.second; ++item)
+      {
+        const std::int64_t f = first_face[pair.faces_of] + *item;
+        if (boxes[f].contains(x) &&
+            !is_farther(x, result.faces[f].x, my_reach) &&
             project_on_face(x, result.faces[f].x).distance_square <
-                reach * reach)
-          candidates.push_back({key, f, share, memory});
+                my_reach * my_reach)
+          near_faces.push_back(f);
+      }
+      const std::int64_t last = near_faces.size();
+      if (last > first)
+        candidates.push_back(
+            {key, share, first, last, memory, with_areas ? areas[i] : Vec{}});
     };
     if (pair.loose_nodes_only)
     {
@@ -213,19 +292,58 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
     }
   }
   result.candidates = gather_all(candidates, communicator);
+  result.face_of_candidate = gather_all(near_faces, communicator);
+  // Lists of later ranks moved to the back.
+  std::int64_t first = 0;
+  for (ContactCandidate &c : result.candidates)
+  {
+    c.last_face += first - c.first_face;
+    c.first_face = first;
+    first = c.last_face;
+  }
+  const auto body_of_faces = [&](const ContactCandidate &c)
+  { return result.faces[result.face_of_candidate[c.first_face]].body; };
   std::sort(result.candidates.begin(), result.candidates.end(),
-            [](const ContactCandidate &a, const ContactCandidate &b)
-            { return a.node == b.node ? a.face < b.face : a.node < b.node; });
+            [&](const ContactCandidate &a, const ContactCandidate &b)
+            {
+              return a.node == b.node ? body_of_faces(a) < body_of_faces(b)
+                                      : a.node < b.node;
+            });
   return result;
 }
 
-double largest_speed(const std::vector<Body *> &bodies, MPI_Comm communicator)
+double largest_closing_speed(const std::vector<Body *> &bodies,
+                             const std::vector<std::pair<int, int>> &pairs,
+                             MPI_Comm communicator)
 {
-  double square = 0.;
-  for (const Body *body : bodies)
-    for (std::size_t i = 0; i < body->nodes().n_owned; ++i)
-      square = std::max(square, norm_square(body->nodes().velocity[i]));
-  MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  return std::sqrt(square);
+  std::vector<char> used(bodies.size(), 0);
+  for (const auto &pair : pairs)
+    used[pair.first] = used[pair.second] = 1;
+  Box all;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (used[b])
+    {
+      const NodalState &nodes = bodies[b]->nodes();
+      for (std::size_t i = 0; i < nodes.n_owned; ++i)
+        all.add(nodes.velocity[i]);
+    }
+  all.reduce(communicator);
+  const Vec middle = 0.5 * (all.low + all.high);
+  std::vector<double> square(bodies.size(), 0.);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (used[b])
+    {
+      const NodalState &nodes = bodies[b]->nodes();
+      for (std::size_t i = 0; i < nodes.n_owned; ++i)
+        square[b] =
+            std::max(square[b], norm_square(nodes.velocity[i] - middle));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, square.data(), square.size(), MPI_DOUBLE, MPI_MAX,
+                communicator);
+  double speed = 0.;
+  for (const auto &pair : pairs)
+    speed = std::max(speed, std::sqrt(square[pair.first]) +
+                                std::sqrt(square[pair.second]));
+  return speed;
 }
 } // namespace sabot

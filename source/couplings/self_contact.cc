@@ -33,12 +33,16 @@ void SelfContact::initialize()
   for (const Body *body : bodies)
     if (body->debris().spacing > 0.)
       skin = std::min(skin, 0.4 * body->debris().spacing);
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      if (bodies[a]->debris().spacing > 0. && bodies[b]->debris().spacing > 0.)
+        body_pairs.emplace_back(a, b);
   search();
 }
 
 void SelfContact::update_search(const unsigned int, const double dt)
 {
-  travelled += 2. * largest_speed(bodies, communicator) * dt;
+  travelled += largest_closing_speed(bodies, body_pairs, communicator) * dt;
   // Newly failed particles are met at the next search; those that come close
   // by then were bonded until the last kernel update.
   if (travelled > skin)

@@ -262,6 +262,30 @@ void Tie::add_forces(const double)
     leads.force[term.local] += term.weight * follower_force[term.slot];
 }
 
+void Tie::accumulate_work(const double half_dt)
+{
+  const NodalState &followers = bodies[follower]->nodes(),
+                   &leads = bodies[leader]->nodes();
+  for (std::size_t s = 0; s < owned_followers.size(); ++s)
+    work.add(-half_dt *
+             dot(follower_force[s], followers.velocity[owned_followers[s]]));
+  for (const Term &term : forces)
+    work.add(half_dt * term.weight *
+             dot(follower_force[term.slot], leads.velocity[term.local]));
+}
+
+void Tie::add_energies(EnergyLedger &ledger) const
+{
+  ledger.tie.subtract(work);
+}
+
+void Tie::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_value("work", work);
+  // Half of their work along the next step is still to be counted.
+  visitor.visit_array("follower force", follower_force);
+}
+
 Measures Tie::measure() const
 {
   return {{"tied nodes", "1", double(n_constraints)}};

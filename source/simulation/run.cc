@@ -265,11 +265,11 @@ Run::Balance Run::balance_energy()
     coupling->add_energies(e);
   ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
                     &e.contact, &e.friction, &e.eroded, &e.external,
-                    &e.plastic_work},
+                    &e.plastic_work, &e.tie},
                    communicator);
   ExactSum total = e.kinetic;
   for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
-                               &e.contact, &e.friction, &e.eroded})
+                               &e.contact, &e.friction, &e.eroded, &e.tie})
     total.add(*part);
   total.subtract(e.external);
   Balance balance;
@@ -291,7 +291,8 @@ Run::Balance Run::balance_energy()
             {"external", "J", e.external.value()},
             {"plastic work", "J", e.plastic_work.value()},
             {"total", "J", balance.total},
-            {"residual", "1", balance.residual}};
+            {"residual", "1", balance.residual},
+            {"tie", "J", e.tie.value()}};
   return balance;
 }
 

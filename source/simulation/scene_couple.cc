@@ -119,6 +119,17 @@ void Scene::build_couplings()
           options.friction = get_quantity(prm, "Friction coefficient");
           options.damping_fraction = get_quantity(prm, "Damping fraction");
           options.stiffness_scale = get_quantity(prm, "Stiffness scale");
+          options.dynamic_friction =
+              get_quantity(prm, "Dynamic friction coefficient");
+          options.friction_decay = get_quantity(prm, "Friction decay");
+          if (options.dynamic_friction > options.friction)
+            throw InputError(path + "/Dynamic friction coefficient",
+                             "is above the friction coefficient, that of rest");
+          if (options.dynamic_friction < 0. && options.friction_decay > 0.)
+            throw InputError(path + "/Friction decay",
+                             "needs a dynamic friction coefficient");
+          if (get_quantity(prm, "Shear strength") > 0.)
+            options.shear_limit = get_quantity(prm, "Shear strength");
           std::vector<ContactPair> pairs;
           for (const int a : members)
             for (const int b : members)

@@ -240,6 +240,21 @@ void declare_coupling(ParameterHandler &prm, const std::string &type)
                         ? "Penalty stiffness over bulk modulus times spacing."
                         : "Penalty stiffness over Young's modulus times "
                           "spacing.");
+  if (type == "contact")
+  {
+    prm.declare_entry("Dynamic friction coefficient", "-1",
+                      QuantityPattern(Dimension::none, -1., 2.),
+                      "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
+                      "mu_d) exp(-decay speed), mu_s the friction coefficient; "
+                      "-1: as at rest.");
+    prm.declare_entry("Friction decay", "0",
+                      QuantityPattern(Dimension::none, 0.),
+                      "Decay of friction with the speed of sliding, in s/m.");
+    prm.declare_entry("Shear strength", "0",
+                      QuantityPattern(Dimension::pressure, 0.),
+                      "Friction per area stays below it; the yield stress of "
+                      "the softer side over sqrt(3) is usual. 0: no limit.");
+  }
   if (type == "self-contact")
     prm.declare_entry("Contact distance", "0.9",
                       QuantityPattern(Dimension::none, 0.1, 1.),

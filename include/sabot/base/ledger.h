@@ -18,6 +18,9 @@ struct EnergyLedger
   /** Of eroded cells and of nodes that lost all their cells: still energy of
       the scene, but out of reach of its bodies. */
   ExactSum eroded;
+  /** Minus the work of the ties on followers and leaders together: zero but
+      for round-off. */
+  ExactSum tie;
   /** Part of internal that was dissipated by plastic flow (information). */
   ExactSum plastic_work;
 };

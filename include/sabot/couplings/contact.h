@@ -10,7 +10,12 @@ namespace sabot
 /** Penalty law of contact. */
 struct ContactOptions
 {
-  double friction = 0.;          // Coulomb
+  /** Coulomb: mu = mu_d + (mu_s - mu_d) exp(-decay |sliding speed|). */
+  double friction = 0.;         // mu_s
+  double dynamic_friction = -1; // mu_d; negative: mu_s at all speeds
+  double friction_decay = 0.;   // [s/m]
+  /** Friction over the area of a node stays below this [Pa]; infinite: off. */
+  double shear_limit = 1e300;
   double damping_fraction = 0.1; // of critical, while approaching
   double stiffness_scale = 1.;   // of K h
   /** Largest stiffness as a fraction of reduced mass over dt^2. */
@@ -20,10 +25,12 @@ struct ContactOptions
 /**
  * Node-to-face penalty contact with Coulomb friction between several bodies:
  * nodes of each body (all particles, surface nodes of hexahedra) against the
- * boundary faces of every other. A tied pair meets only through nodes that
- * have come loose. The force on a node with gap g < 0 is
- * n max(0, -k g - c dg/dt), k = min(K h, 0.1 m_red/dt^2), with the reduced mass
- * of node and face so that neither penalty nor friction can overshoot.
+ * boundary faces of every other. A node inside is held by the faces that look
+ * the way of the one it came through, not by the closest, so that aligned
+ * edges cannot slip through each other. A tied pair meets only through nodes
+ * that have come loose. The force on a node with gap g < 0 is n max(0, -k g - c
+ * dg/dt), k = min(K h, 0.1 m_red/dt^2), with the reduced mass of node and face
+ * so that neither penalty nor friction can overshoot.
  */
 class Contact : public Coupling
 {
@@ -46,12 +53,14 @@ public:
   const NodeKey &initial_penetration_node() const { return initial_node; }
 
 private:
-  /** A node and the faces it may touch, as slots of the halo. */
+  /** A node and the faces it may touch. */
   struct Group
   {
-    std::size_t slot;
-    std::size_t first_face, last_face;
+    std::size_t slot;                  // of the halo
+    std::size_t first_face, last_face; // of face_of_group
     double stiffness, spacing;
+    double area;     // over which friction may act [m^2]
+    Vec area_vector; // of the node's own faces, zero where it has none
     ContactMemory memory;
     /** Distance the bodies may travel before the node can touch a face. */
     double wake = 0.;
@@ -61,7 +70,8 @@ private:
   {
     NodeKey node;
     std::int64_t n_faces;
-    double stiffness, spacing;
+    double stiffness, spacing, area;
+    Vec area_vector;
     ContactMemory memory;
     double wake;
   };
@@ -71,9 +81,19 @@ private:
   static double effective_depth(ContactMemory &memory, const double depth,
                                 const double largest_change);
   void search();
-  /** Closest of a group's faces; -1 when none. */
-  std::ptrdiff_t closest_face(const Group &group,
-                              FaceProjection &projection) const;
+  /** Closest of a group's faces, or of those whose normal is within 60 degrees
+      of @p side; -1 when none. */
+  std::ptrdiff_t closest_face(const Group &group, FaceProjection &projection,
+                              const Vec *const side = nullptr) const;
+  /** The face that holds a node, if any, as projection with negative gap; the
+      memory follows. Motion: the most that the node may have moved against the
+      face since the last step. */
+  std::ptrdiff_t holding_face(Group &group, FaceProjection &projection,
+                              const double dt) const;
+  double relative_speed(const Group &group, const std::ptrdiff_t face,
+                        const FaceProjection &projection) const;
+  double friction_coefficient(const double speed) const;
+  void update_surfaces();
 
   const std::vector<Body *> bodies;
   const std::vector<ContactPair> pairs;
@@ -81,7 +101,10 @@ private:
   MPI_Comm communicator;
   NodeHalo halo;
   std::vector<Group> groups;
-  std::vector<std::array<std::size_t, 4>> face_slots;
+  std::vector<std::size_t> face_of_group;             // index into face_slots
+  std::vector<std::array<std::size_t, 4>> face_slots; // slots of the halo
+  std::vector<ContactSurface> surfaces;               // of the pairs' bodies
+  std::vector<std::pair<int, int>> body_pairs;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., travelled = 0.; // [m]

@@ -20,17 +20,9 @@ struct ContactPair
  */
 struct ContactMemory
 {
+  Vec side = {};      // outward normal of the face last met; zero: none yet
   double depth = -1.; // at the last step [m]; negative: not known
   double offset = 0.; // part of the depth that does not repel [m]
-};
-
-/** A node that may touch faces until the bodies have moved by the skin. */
-struct ContactCandidate
-{
-  NodeKey node;
-  std::int64_t face; // index into SearchResult::faces
-  double share;      // ContactSurface::node_share
-  ContactMemory memory;
 };
 
 struct FaceNodes
@@ -41,27 +33,47 @@ struct FaceNodes
   std::array<Vec, 4> x;
 };
 
+/** A node and the faces that it may touch until the bodies have moved by the
+    skin. */
+struct ContactCandidate
+{
+  NodeKey node;
+  double share;                       // ContactSurface::node_share
+  std::int64_t first_face, last_face; // of SearchResult::face_of_candidate
+  ContactMemory memory;
+  Vec area; // quarters of the vectors of its own faces, where asked for [m^2]
+};
+
 struct SearchResult
 {
-  std::vector<FaceNodes> faces;             // the same on every rank
-  std::vector<ContactCandidate> candidates; // sorted by node, then face
+  std::vector<FaceNodes> faces; // the same on every rank
+  std::vector<std::int64_t> face_of_candidate;
+  std::vector<ContactCandidate> candidates; // sorted by node, then body
 };
 
 /** Memories of the nodes owned here, sorted by node. */
 using ContactMemories = std::vector<std::pair<NodeKey, ContactMemory>>;
 
 /**
- * Bucket search: every node of the pairs with the faces closer than @p reach.
- * The result is the same on every rank; cost is linear in nodes and faces near
- * the overlap of the bodies' bounding boxes. Collective.
+ * Bucket search: every node of the pairs with the faces closer than
+ * max(@p spacing, its depth) + @p skin. The result is the same on every rank;
+ * cost is linear in nodes and faces near the overlap of the bodies' bounding
+ * boxes. Collective.
+ * @param surfaces of all bodies; those of no pair may be empty.
  */
 SearchResult search_contacts(const std::vector<Body *> &bodies,
+                             const std::vector<ContactSurface> &surfaces,
                              const std::vector<ContactPair> &pairs,
                              const ContactMemories &memories,
-                             const double reach, MPI_Comm communicator);
+                             const double spacing, const double skin,
+                             const bool with_areas, MPI_Comm communicator);
 
-/** Largest speed among this rank's nodes of the bodies of @p pairs [m/s]. */
-double largest_speed(const std::vector<Body *> &bodies, MPI_Comm communicator);
+/** Largest speed at which a node of one body of a pair can close in on a node
+    of the other [m/s]: speeds are taken from the middle of all velocities.
+    Collective. */
+double largest_closing_speed(const std::vector<Body *> &bodies,
+                             const std::vector<std::pair<int, int>> &pairs,
+                             MPI_Comm communicator);
 } // namespace sabot
 
 #endif

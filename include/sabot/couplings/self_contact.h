@@ -52,7 +52,8 @@ private:
   const std::vector<Body *> bodies;
   const SelfContactOptions options;
   MPI_Comm communicator;
-  std::vector<Pair> pairs; // sorted by keys
+  std::vector<Pair> pairs;                     // sorted by keys
+  std::vector<std::pair<int, int>> body_pairs; // that have debris
   NodeHalo halo;
   AlignedVector<Vec> normal_force, friction_force, total_force;
   double skin = 0., travelled = 0.;

@@ -26,6 +26,9 @@ public:
   void initialize() override;
   void impose_kinematics() override;
   void add_forces(const double dt) override;
+  void accumulate_work(const double half_dt) override;
+  void add_energies(EnergyLedger &ledger) const override;
+  void visit_state(StateVisitor &visitor) override;
   Measures measure() const override;
 
 private:
@@ -55,6 +58,7 @@ private:
   std::vector<std::size_t> owned_followers; // local, ascending
   AlignedVector<Vec> follower_force;        // owned, then others'
   std::vector<Term> forces;                 // owned leaders from followers
+  ExactSum work; // of the tie, on owned followers and leaders [J]
 };
 } // namespace sabot
 

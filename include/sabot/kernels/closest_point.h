@@ -53,9 +53,11 @@ inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
 struct FaceProjection
 {
   double distance_square = 1e300;
-  double facing = 0.; // |cos| of the angle between offset and face normal
-  double gap = 0.;    // signed distance, negative inside
-  Vec normal = {};    // unit, outward, along which the gap is measured
+  double facing = 0.;   // |cos| of the angle between offset and face normal
+  double gap = 0.;      // signed distance, negative inside
+  Vec normal = {};      // unit, outward, along which the gap is measured
+  Vec face_normal = {}; // unit, outward, of the triangle
+  double along = 0.;    // signed distance from the triangle's plane
   std::array<double, 4> weight{{0., 0., 0., 0.}};
 };
 
@@ -100,6 +102,8 @@ inline FaceProjection project_on_face(const Vec p, const std::array<Vec, 4> &x)
     best.distance_square = d2;
     best.facing = facing;
     best.gap = along < 0. ? -distance : distance;
+    best.face_normal = n;
+    best.along = along;
     const bool inside =
         facing > 1. - 1e-9 || distance < 1e-12 * std::sqrt(size);
     best.normal = inside ? n : (1. / best.gap) * offset;
