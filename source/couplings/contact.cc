@@ -410,7 +410,10 @@ void Contact::visit_state(StateVisitor &visitor)
   visitor.visit_resized("groups", saved);
   visitor.visit_resized("face nodes", face_nodes);
   if (visitor.is_restoring())
+  {
+    update_surfaces(); // as the restored bodies have them
     restore_groups(saved, face_nodes);
+  }
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("normal force", normal_force);
   visitor.visit_array("friction force", friction_force);
