@@ -1,5 +1,7 @@
 #include "sabot/couplings/contact.h"
 
+#include "sabot/kernels/patch_weights.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,6 +65,18 @@ void Contact::update_search(const unsigned int, const double dt)
   surface_version = version;
 }
 
+double Contact::patch_radius(const int nodes_of, const int faces_of) const
+{
+  // A particle stands for a volume as wide as the spacing, not for a point:
+  // faces that are about as small or smaller would bulge between particles.
+  constexpr double normalised_radius = 1.5, fine = 0.75;
+  const ContactSurface &nodes = surfaces[nodes_of], &faces = surfaces[faces_of];
+  if (bodies[nodes_of]->item_name() != "particles" ||
+      nodes.spacing < fine * faces.spacing)
+    return 0.;
+  return normalised_radius * std::max(nodes.spacing, faces.spacing);
+}
+
 void Contact::search()
 {
   travelled = 0.;
@@ -72,6 +86,8 @@ void Contact::search()
   for (const ContactPair &pair : pairs)
     for (const int b : {pair.faces_of, pair.nodes_of})
       spacing = std::max(spacing, surfaces[b].spacing);
+  for (const ContactPair &pair : pairs)
+    spacing = std::max(spacing, patch_radius(pair.nodes_of, pair.faces_of));
   ContactMemories memories;
   for (const Group &group : groups)
     if (group.slot < halo.n_owned())
@@ -147,6 +163,8 @@ void Contact::search()
           sides = 2.;
       for (auto k = c[i].first_face; k < c[i].last_face; ++k)
         face_of_group.push_back(face_number[faces_of[k]]);
+      group.patch_radius =
+          std::max(group.patch_radius, patch_radius(body, other));
     }
     group.last_face = face_of_group.size();
     group.stiffness =
@@ -158,6 +176,7 @@ void Contact::search()
   normal_force.assign(halo.size(), Vec{});
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
+  touched_number.assign(halo.size(), -1);
 }
 
 std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
@@ -277,6 +296,79 @@ double Contact::effective_depth(ContactMemory &memory, const double depth,
   return depth - memory.offset;
 }
 
+void Contact::spread(const Group &group, const std::ptrdiff_t face,
+                     const FaceProjection &projection, Vec &normal,
+                     double &depth)
+{
+  touched_slots.assign(face_slots[face].begin(), face_slots[face].end());
+  touched_weights.assign(projection.weight.begin(), projection.weight.end());
+  normal = projection.normal;
+  depth = -projection.gap;
+  if (group.patch_radius == 0. || !(projection.along < 0.))
+    return;
+
+  // Areas of the nodes of all faces that look the same way, and the mean of
+  // their normals.
+  constexpr double cosine = 0.5;
+  const Vec held = projection.face_normal;
+  std::vector<std::size_t> slots;
+  touched_area.clear();
+  touched_points.clear();
+  const Vec p = halo.position[group.slot];
+  const Vec centre = p - projection.along * held;
+  Vec mean = {};
+  for (std::size_t k = group.first_face; k < group.last_face; ++k)
+  {
+    const auto &corner = face_slots[face_of_group[k]];
+    const Vec x[4] = {halo.position[corner[0]], halo.position[corner[1]],
+                      halo.position[corner[2]], halo.position[corner[3]]};
+    const Vec area = 0.5 * cross(x[2] - x[0], x[3] - x[1]);
+    const double size = norm(area);
+    if (dot(area, held) < cosine * size)
+      continue;
+    const Vec middle = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+    mean += cubic_spline(norm(middle - centre) / group.patch_radius) * area;
+    for (int a = 0; a < 4; ++a)
+    {
+      std::ptrdiff_t &number = touched_number[corner[a]];
+      if (number < 0)
+      {
+        number = slots.size();
+        slots.push_back(corner[a]);
+        touched_points.push_back(x[a]);
+        touched_area.push_back(0.);
+      }
+      touched_area[number] += 0.25 * size;
+    }
+  }
+  for (const std::size_t slot : slots)
+    touched_number[slot] = -1;
+  const double size = norm(mean);
+  if (!(size > 0.))
+    return;
+  mean = (1. / size) * mean;
+  std::vector<double> weights;
+  if (!patch_weights(touched_points, touched_area, centre, mean,
+                     group.patch_radius, weights))
+    return;
+  // The gap to the same mean of the nodes that the force goes to, so that
+  // force and gap belong to one energy; past a rim it is let go as before.
+  Vec offset = p;
+  for (std::size_t a = 0; a < slots.size(); ++a)
+    offset -= weights[a] * touched_points[a];
+  const double rim = projection.gap / projection.along;
+  depth = std::min(1., std::max(0., rim)) * std::max(0., -dot(offset, mean));
+  normal = mean;
+  touched_slots.clear();
+  touched_weights.clear();
+  for (std::size_t a = 0; a < slots.size(); ++a)
+    if (weights[a] != 0.)
+    {
+      touched_slots.push_back(slots[a]);
+      touched_weights.push_back(weights[a]);
+    }
+}
+
 void Contact::add_forces(const double dt)
 {
   halo.update();
@@ -308,18 +400,20 @@ void Contact::add_forces(const double dt)
       group.wake = travelled + 0.99 * std::sqrt(projection.distance_square);
       continue;
     }
-    const auto &slots = face_slots[f];
-    const auto &w = projection.weight;
-    const Vec n = projection.normal;
+    Vec n;
+    double geometric_depth;
+    spread(group, f, projection, n, geometric_depth);
+    const auto &slots = touched_slots;
+    const auto &w = touched_weights;
     double face_compliance = 0.;
     Vec v = halo.velocity[group.slot];
-    for (int a = 0; a < 4; ++a)
+    for (std::size_t a = 0; a < slots.size(); ++a)
     {
       face_compliance += w[a] * w[a] / halo.inertia[slots[a]];
       v -= w[a] * halo.velocity[slots[a]];
     }
     const double depth =
-        effective_depth(group.memory, -projection.gap, 2. * norm(v) * dt);
+        effective_depth(group.memory, geometric_depth, 2. * norm(v) * dt);
     if (depth <= 0.)
       continue;
     const double reduced_mass =
@@ -346,7 +440,7 @@ void Contact::add_forces(const double dt)
     const Vec fn = pressing * n, ft = -drag * sliding;
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;
-    for (int a = 0; a < 4; ++a)
+    for (std::size_t a = 0; a < slots.size(); ++a)
     {
       normal_force[slots[a]] -= w[a] * fn;
       friction_force[slots[a]] -= w[a] * ft;
@@ -382,8 +476,12 @@ Measures Contact::measure() const
   double penetration = penetration_over_spacing;
   MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
+  ExactSum work[2] = {contact_work, friction_work};
+  ExactSum::reduce({&work[0], &work[1]}, communicator);
   return {{"penetration max over spacing", "1", penetration},
-          {"initial penetration over spacing", "1", initial_over_spacing}};
+          {"initial penetration over spacing", "1", initial_over_spacing},
+          {"contact energy", "J", -work[0].value()},
+          {"friction energy", "J", -work[1].value()}};
 }
 
 void Contact::visit_state(StateVisitor &visitor)
@@ -399,10 +497,10 @@ void Contact::visit_state(StateVisitor &visitor)
   std::vector<NodeKey> face_nodes;
   for (const Group &group : groups)
   {
-    saved.push_back({halo.key(group.slot),
-                     std::int64_t(group.last_face - group.first_face),
-                     group.stiffness, group.spacing, group.area,
-                     group.area_vector, group.memory, group.wake});
+    saved.push_back(
+        {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
+         group.stiffness, group.spacing, group.area, group.area_vector,
+         group.memory, group.wake, group.patch_radius});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));
@@ -441,6 +539,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     group.area_vector = from.area_vector;
     group.memory = from.memory;
     group.wake = from.wake;
+    group.patch_radius = from.patch_radius;
     for (std::size_t f = group.first_face; f < group.last_face; ++f)
     {
       std::array<std::size_t, 4> slots;
@@ -454,5 +553,6 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
   normal_force.assign(halo.size(), Vec{});
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
+  touched_number.assign(halo.size(), -1);
 }
 } // namespace sabot

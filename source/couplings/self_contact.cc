@@ -212,7 +212,11 @@ void SelfContact::add_energies(EnergyLedger &ledger) const
 
 Measures SelfContact::measure() const
 {
-  return {{"loose particles", "1", double(n_loose)}};
+  ExactSum work[2] = {contact_work, friction_work};
+  ExactSum::reduce({&work[0], &work[1]}, communicator);
+  return {{"loose particles", "1", double(n_loose)},
+          {"contact energy", "J", -work[0].value()},
+          {"friction energy", "J", -work[1].value()}};
 }
 
 void SelfContact::visit_state(StateVisitor &visitor)

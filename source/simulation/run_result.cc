@@ -219,6 +219,19 @@ void Run::write_result(const std::string &status, const std::string &reason)
     }
   r["contact"] = {{"penetration_max_over_spacing", number(penetration)},
                   {"initial_penetration_over_spacing", number(initial)}};
+  // Where energy went between the bodies: contact and friction of each.
+  r["couplings"] = ordered_json::object();
+  for (const auto &coupling : scene.couplings)
+  {
+    ordered_json &entry = r["couplings"][coupling->name];
+    entry["type"] = coupling->kind();
+    for (const Measure &m : coupling->measure())
+    {
+      std::string key = m.name;
+      std::replace(key.begin(), key.end(), ' ', '_');
+      entry[key] = number(m.value);
+    }
+  }
   const std::vector<ZoneVerdict> zones =
       judge_zones(scene, timers, step, communicator);
   r["zone"] = zone_results(zones);

@@ -88,23 +88,22 @@ std::vector<Check> spg_shear_plug()
       char name[80];
       std::snprintf(name, sizeof(name), "strain %g, %g mm: work per area",
                     failure_strain, 1e3 * h);
-      checks.push_back({name, 0., s.work * 1e-3, 0., "kJ/m2", "",
-                        Check::Kind::reported});
+      checks.push_back(
+          {name, 0., s.work * 1e-3, 0., "kJ/m2", "", Check::Kind::reported});
       std::snprintf(name, sizeof(name), "strain %g, %g mm: bonds broken",
                     failure_strain, 1e3 * h);
       checks.push_back(
           {name, 0., s.broken, 0., "1", "", Check::Kind::reported});
     }
-    checks.push_back({"work at 0.5 mm over work at 1 mm", 0.,
-                      works[2] / works[0], 0., "1",
-                      "0.5: proportional to the spacing",
-                      Check::Kind::reported});
+    checks.push_back(
+        {"work at 0.5 mm over work at 1 mm", 0., works[2] / works[0], 0., "1",
+         "0.5: proportional to the spacing", Check::Kind::reported});
   }
   return checks;
 }
 
-const RegisterProblem
-    plug({"spg-shear-plug", "work to shear a block off, by spacing", "long",
-          spg_shear_plug});
+const RegisterProblem plug({"spg-shear-plug",
+                            "work to shear a block off, by spacing", "long",
+                            spg_shear_plug});
 } // namespace
 } // namespace sabot

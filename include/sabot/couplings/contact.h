@@ -64,6 +64,8 @@ private:
     ContactMemory memory;
     /** Distance the bodies may travel before the node can touch a face. */
     double wake = 0.;
+    /** Radius over which a particle presses [m]; 0: at a point. */
+    double patch_radius = 0.;
   };
   /** A group as a checkpoint holds it; the nodes of its faces stand apart. */
   struct SavedGroup
@@ -73,7 +75,7 @@ private:
     double stiffness, spacing, area;
     Vec area_vector;
     ContactMemory memory;
-    double wake;
+    double wake, patch_radius;
   };
   void restore_groups(const std::vector<SavedGroup> &saved,
                       const std::vector<NodeKey> &face_nodes);
@@ -81,6 +83,9 @@ private:
   static double effective_depth(ContactMemory &memory, const double depth,
                                 const double largest_change);
   void search();
+  /** Radius over which a particle presses on the faces of another body; 0 where
+      it presses at a point. */
+  double patch_radius(const int nodes_of, const int faces_of) const;
   /** Closest of a group's faces, or of those whose normal is within 60 degrees
       of @p side; -1 when none. */
   std::ptrdiff_t closest_face(const Group &group, FaceProjection &projection,
@@ -93,6 +98,11 @@ private:
   double relative_speed(const Group &group, const std::ptrdiff_t face,
                         const FaceProjection &projection) const;
   double friction_coefficient(const double speed) const;
+  /** What a node presses on: the four nodes of the face that holds it or, of a
+      particle, those within its patch, as smooth surface. Sets touched_slots
+      and touched_weights, @p normal and @p depth. */
+  void spread(const Group &group, const std::ptrdiff_t face,
+              const FaceProjection &projection, Vec &normal, double &depth);
   void update_surfaces();
 
   const std::vector<Body *> bodies;
@@ -106,6 +116,11 @@ private:
   std::vector<ContactSurface> surfaces;               // of the pairs' bodies
   std::vector<std::pair<int, int>> body_pairs;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
+  // Work arrays of spread()
+  std::vector<std::size_t> touched_slots;
+  std::vector<double> touched_weights, touched_area;
+  std::vector<Vec> touched_points;
+  std::vector<std::ptrdiff_t> touched_number; // per slot; -1
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., travelled = 0.; // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;

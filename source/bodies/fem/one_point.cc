@@ -308,24 +308,36 @@ void OnePoint::kinematics(const NodalState &nodes, const std::size_t pack,
   {
     const Pack coefficient = options.hourglass_coefficient * 0.25 * density *
                              c * g.size_square * root * root;
+    Pack pulled[4][3], overlap = zero;
+    for (int m = 0; m < 4; ++m)
+    {
+      const Pack mode[3] = {modal[0][m], modal[1][m], modal[2][m]};
+      for (int i = 0; i < 3; ++i)
+        pulled[m][i] = dot(inverse.m[i], mode);
+      const Pack S_pulled[3] = {dot(S.m[0], pulled[m]), dot(S.m[1], pulled[m]),
+                                dot(S.m[2], pulled[m])};
+      overlap += dot(pulled[m], S_pulled);
+    }
+    // gamma_a = h_a - p.B_a: in a flattened, crooked cell the part along B is
+    // large. There the viscosity stops at what ends the motion of the h in a
+    // step, and that along B, which strains the cell as well, in four.
+    const Pack strongest = (dt > 0. ? 0.125 * density / dt : 1e100) * g.volume /
+                           (8. + 4. * overlap);
+    const Pack bounded = pack_min(coefficient, strongest);
     Pack rate[3][4];
     for (int i = 0; i < 3; ++i)
       hourglass_sums(x[i], rate[i]);
     for (int m = 0; m < 4; ++m)
     {
-      const Pack mode[3] = {modal[0][m], modal[1][m], modal[2][m]};
-      Pack pulled[3];
-      for (int i = 0; i < 3; ++i)
-        pulled[i] = dot(inverse.m[i], mode);
       for (int i = 0; i < 3; ++i)
       {
-        const Pack r = rate[i][m] - dot(L.m[i], pulled);
-        const Pack f = coefficient * r;
+        const Pack r = rate[i][m] - dot(L.m[i], pulled[m]);
+        const Pack f = bounded * r;
         work += (f + old.mode[m][i]) * r;
         old.mode[m][i] = f;
         out.mode[m][i] = f;
         for (int j = 0; j < 3; ++j)
-          out.hourglass.m[i][j] -= f * pulled[j];
+          out.hourglass.m[i][j] -= f * pulled[m][j];
       }
     }
     double *const energy = &hourglass_energy[pack * n_lanes];
