@@ -4,6 +4,7 @@
 #include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
+#include "sabot/study/pictures.h"
 #include "sabot/study/study.h"
 #include "sabot/study/study_file.h"
 #include "sabot/verification/problem.h"
@@ -26,6 +27,7 @@ struct Arguments
   std::string json_file;
   bool quiet = false, list = false, is_about_studies = false;
   StudyArguments study;
+  PictureArguments picture;
 };
 
 /** "file:line: message" of bad input. */
@@ -228,9 +230,36 @@ int main(int argc, char **argv)
   study->add_option("--processes", arguments.study.n_processes,
                     "Runs at the same time; 0: as the study file says");
   study->add_flag("--retry", arguments.study.retry, "Run again what failed");
+  study->add_flag("--renew", arguments.study.renew,
+                  "Run again what another build of the program made");
   study->add_flag("--list", arguments.study.list,
                   "Check the study and list its runs without running them");
   study->add_flag("--quiet", arguments.study.quiet, "Say nothing");
+  CLI::App *const picture = app.add_subcommand(
+      "picture", "Draw a section through the bodies of a run as PNG");
+  PictureArguments &drawn = arguments.picture;
+  picture->add_option("folder", drawn.folder, "Folder with the results")
+      ->required();
+  picture->add_option("-o,--output", drawn.file,
+                      "Picture (default: section.png in the folder)");
+  picture->add_option("--field", drawn.field,
+                      "Field that colours the bodies (default: effective "
+                      "plastic strain, or velocity where nothing can yield)");
+  picture->add_option("--time", drawn.times,
+                      "Times, separated by commas: \"20 us, 0.1 ms\" (default: "
+                      "the last)");
+  picture
+      ->add_option("--normal", drawn.normal,
+                   "Axis across the plane of the section")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  picture->add_option("--at", drawn.position,
+                      "Position of the plane along it: \"0 mm\"");
+  picture->add_option("--range", drawn.range,
+                      "Limits of the colours: \"0, 1\" (SI)");
+  picture->add_option("--window", drawn.window,
+                      "Part to show, to the right and up: \"-30 mm, 30 mm, -40 "
+                      "mm, 20 mm\"");
+  picture->add_option("--title", drawn.title, "Title (default: the scene's)");
   CLI::App *const parameters =
       app.add_subcommand("parameters", "Print the manual of all entries");
   parameters->add_option("--format", arguments.format, "")
@@ -257,6 +286,9 @@ int main(int argc, char **argv)
   // A study starts processes that use MPI and must not be one itself.
   if (*study)
     return report_errors(true, [&]() { return run_study(arguments.study); });
+  if (*picture)
+    return report_errors(true,
+                         [&]() { return draw_picture(arguments.picture); });
 
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool speaks =

@@ -36,6 +36,16 @@ std::string sha256(const void *data, const std::size_t n_bytes)
   return hexadecimal(digest, length);
 }
 
+std::string base64(const std::string &bytes)
+{
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int n = EVP_EncodeBlock(
+      reinterpret_cast<unsigned char *>(&text[0]),
+      reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
+  text.resize(n);
+  return text;
+}
+
 std::string sha256_of_file(const std::string &file, const std::size_t n_bytes)
 {
   std::ifstream stream(file, std::ios::binary);

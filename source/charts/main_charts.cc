@@ -1,113 +1,21 @@
-// Draws the charts of a study as PNG files: sabot-charts CHARTS.json FOLDER.
-// A program of its own, as VTK's rendering ends the process where it finds no
-// display.
+// Draws charts of a study and sections through runs as PNG files:
+// sabot-charts DRAWINGS.json FOLDER. A program of its own, as VTK's rendering
+// ends the process where it finds no display.
 
-#include <vtkAxis.h>
-#include <vtkChartLegend.h>
-#include <vtkChartXY.h>
-#include <vtkContextScene.h>
-#include <vtkContextView.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPen.h>
-#include <vtkPlotPoints.h>
-#include <vtkPNGWriter.h>
-#include <vtkRenderer.h>
-#include <vtkRenderWindow.h>
-#include <vtkTable.h>
-#include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
+#include "section.h"
+#include "xy_chart.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <string>
-
-namespace
-{
-using nlohmann::json;
-
-void add_series(vtkChartXY *chart, const json &series)
-{
-  vtkNew<vtkTable> table;
-  for (const char *const name : {"x", "y"})
-  {
-    vtkNew<vtkDoubleArray> column;
-    column->SetName(name);
-    table->AddColumn(column);
-  }
-  const json &points = series["points"];
-  // A VTK line needs two points; one is drawn twice.
-  const std::size_t n = points.size() == 1 ? 2 : points.size();
-  if (n == 0)
-    return;
-  table->SetNumberOfRows(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (int c = 0; c < 2; ++c)
-      table->SetValue(i, c,
-                      points[points.size() == 1 ? 0 : i][c].get<double>());
-  const std::string colour = series["colour"];
-  unsigned int r = 0, g = 0, b = 0;
-  std::sscanf(colour.c_str(), "#%2x%2x%2x", &r, &g, &b);
-  const bool has_line = series["has_line"], has_points = series["has_points"];
-  vtkPlotPoints *const plot = vtkPlotPoints::SafeDownCast(
-      chart->AddPlot(has_line ? vtkChart::LINE : vtkChart::POINTS));
-  plot->SetInputData(table, 0, 1);
-  plot->SetLabel(series["label"].get<std::string>());
-  plot->SetColor(r, g, b, 255);
-  plot->SetWidth(2.f);
-  if (series["is_dashed"])
-    plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
-  plot->SetMarkerStyle(has_points ? vtkPlotPoints::CIRCLE
-                                  : vtkPlotPoints::NONE);
-  plot->SetMarkerSize(9.f);
-}
-
-bool draw(const json &description, const std::string &folder)
-{
-  vtkNew<vtkContextView> view;
-  view->GetRenderWindow()->SetSize(1000, 680);
-  view->GetRenderWindow()->SetOffScreenRendering(1);
-  view->GetRenderer()->SetBackground(1., 1., 1.);
-  vtkNew<vtkChartXY> chart;
-  view->GetScene()->AddItem(chart);
-  chart->SetTitle(description["title"].get<std::string>());
-  chart->GetTitleProperties()->SetFontSize(18);
-  chart->SetShowLegend(true);
-  const std::pair<int, const char *> axes[] = {{vtkAxis::BOTTOM, "x_label"},
-                                               {vtkAxis::LEFT, "y_label"}};
-  for (const auto &[which, label] : axes)
-  {
-    vtkAxis *const axis = chart->GetAxis(which);
-    axis->SetTitle(description[label].get<std::string>());
-    axis->GetTitleProperties()->SetFontSize(15);
-    axis->GetLabelProperties()->SetFontSize(13);
-  }
-  chart->GetAxis(vtkAxis::BOTTOM)
-      ->SetLogScale(description["is_x_logarithmic"].get<bool>());
-  for (const json &series : description["series"])
-    add_series(chart, series);
-  view->GetRenderWindow()->SetMultiSamples(0);
-  view->Render();
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(view->GetRenderWindow());
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(
-      (folder + "/" + description["name"].get<std::string>() + ".png").c_str());
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->Write();
-  return writer->GetErrorCode() == 0;
-}
-} // namespace
 
 int main(int argc, char **argv)
 {
   if (argc != 3)
   {
-    std::cerr << "usage: sabot-charts CHARTS.json FOLDER" << std::endl;
+    std::cerr << "usage: sabot-charts DRAWINGS.json FOLDER" << std::endl;
     return 1;
   }
   if (std::getenv("DISPLAY") == nullptr)
@@ -116,18 +24,27 @@ int main(int argc, char **argv)
     return 4;
   }
   std::ifstream file(argv[1]);
-  const json charts = json::parse(file, nullptr, false);
-  if (charts.is_discarded())
+  const nlohmann::json drawings = nlohmann::json::parse(file, nullptr, false);
+  if (!drawings.is_array())
   {
     std::cerr << "error: cannot read \"" << argv[1] << "\"" << std::endl;
     return 4;
   }
-  for (const json &chart : charts)
-    if (!draw(chart, argv[2]))
+  // One that fails does not stop the others.
+  int code = 0;
+  for (const nlohmann::json &drawing : drawings)
+    try
     {
-      std::cerr << "error: cannot write a picture to \"" << argv[2] << "\""
-                << std::endl;
-      return 4;
+      if (drawing.value("kind", "chart") == "section")
+        sabot_charts::draw_section(drawing);
+      else if (!sabot_charts::draw_chart(drawing, argv[2]))
+        throw std::runtime_error("cannot write a picture to \"" +
+                                 std::string(argv[2]) + "\"");
     }
-  return 0;
+    catch (const std::exception &e)
+    {
+      std::cerr << "error: " << e.what() << std::endl;
+      code = 4;
+    }
+  return code;
 }

@@ -150,7 +150,11 @@ std::string draw_svg(const Chart &chart)
       points << px << "," << py << " ";
       if (series.has_points)
         circles << "<circle cx='" << px << "' cy='" << py << "' r='4' fill='"
-                << colour << "'/>";
+                << colour << "'>"
+                << (i < series.names.size()
+                        ? "<title>" + escape_html(series.names[i]) + "</title>"
+                        : "")
+                << "</circle>";
     }
     const std::string dash = series.is_dashed ? " stroke-dasharray='7 4'" : "";
     if (series.has_line)

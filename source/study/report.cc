@@ -1,9 +1,11 @@
+#include "sabot/base/hash.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/study/results.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <sstream>
 
 namespace sabot
@@ -18,7 +20,8 @@ table{border-collapse:collapse;font-size:.9em;margin:1em 0}
 td,th{border:1px solid #ccc;padding:.25em .6em;text-align:right}
 td.t,th.t{text-align:left}tr.front{background:#e8f3fb}tr.bad{color:#a33}
 .charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(460px,1fr));
-gap:1em}figure{margin:0}svg{width:100%;height:auto}
+gap:1em}figure{margin:0}img{max-width:100%}
+figcaption{font-size:.9em;color:#444}svg{width:100%;height:auto}
 svg text{font:12px system-ui,sans-serif;fill:#333}svg .title{font-size:14px}
 svg .grid{stroke:#e4e4e4}svg .frame{fill:none;stroke:#888}
 .scroll{overflow-x:auto})";
@@ -87,6 +90,54 @@ void write_runs(const StudyResults &results, std::ostream &html)
          << escape_html(results.unit(q)) << ", "
          << escape_html(results.references[q].origin) << ".</li>";
   html << "</ul>\n";
+}
+
+/** Where the energy is at the end of each run. */
+void write_energies(const StudyResults &results, std::ostream &html)
+{
+  const StudyFile &study = results.study;
+  const std::vector<std::string> parts = energy_parts(results);
+  if (parts.empty())
+    return;
+  html << "<h2>Energy at the end [J]</h2><div class='scroll'><table><tr>"
+       << head("run", true);
+  for (const std::string &part : parts)
+    html << head(part);
+  html << "</tr>\n";
+  for (std::size_t run = 0; run < study.runs.size(); ++run)
+  {
+    html << "<tr>" << cell(results.label(run), true);
+    for (const std::string &part : parts)
+      html << cell(number(results.outcomes[run].energy_of(part), "%.4g"));
+    html << "</tr>\n";
+  }
+  html << "</table></div><p>Plastic work is a part of the internal "
+          "energy.</p>\n";
+}
+
+std::string file_contents(const std::string &file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return stream ? bytes.str() : "";
+}
+
+void write_pictures(const StudyResults &results, std::ostream &html)
+{
+  std::ostringstream figures;
+  for (std::size_t run = 0; run < results.study.runs.size(); ++run)
+  {
+    const std::string &file = results.outcomes[run].picture;
+    const std::string bytes = file.empty() ? "" : file_contents(file);
+    if (!bytes.empty())
+      figures << "<figure><img alt='section' src='data:image/png;base64,"
+              << base64(bytes) << "'><figcaption>"
+              << escape_html(results.label(run)) << "</figcaption></figure>\n";
+  }
+  if (!figures.str().empty())
+    html << "<h2>Sections</h2><div class='charts'>\n"
+         << figures.str() << "</div>\n";
 }
 
 void write_convergence(const StudyResults &results, std::ostream &html)
@@ -178,6 +229,8 @@ void write_report(const StudyResults &results, const std::vector<Chart> &charts,
   html << "</div>\n";
   write_convergence(results, html);
   write_prices(results, html);
+  write_energies(results, html);
+  write_pictures(results, html);
   html << "</body></html>\n";
   write_text(file, html.str());
 }

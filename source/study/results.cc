@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -58,6 +59,9 @@ StudyOutcome read_outcome(const std::string &folder,
     for (const char *const kind : {"particles", "cells"})
       if (body.value().contains(kind))
         outcome.items += number(body.value(), kind);
+  if (r.contains("energy"))
+    for (const auto &part : r["energy"].items())
+      outcome.energy.emplace_back(part.key(), number(r["energy"], part.key()));
   if (r.contains("zone"))
     outcome.zone = zone_in_words(r["zone"]);
   for (std::size_t q = 0; q < quantities.size(); ++q)
@@ -78,6 +82,25 @@ StudyOutcome read_outcome(const std::string &folder,
     // A run without a history still has its result.
   }
   return outcome;
+}
+
+double StudyOutcome::energy_of(const std::string &part) const
+{
+  for (const auto &[name, value] : energy)
+    if (name == part)
+      return value;
+  return nothing;
+}
+
+std::vector<std::string> energy_parts(const StudyResults &results)
+{
+  std::vector<std::string> parts;
+  for (const StudyOutcome &outcome : results.outcomes)
+    for (const auto &[name, value] : outcome.energy)
+      if (value != 0. && std::isfinite(value) && name != "total" &&
+          std::find(parts.begin(), parts.end(), name) == parts.end())
+        parts.push_back(name);
+  return parts;
 }
 
 StudyResults::StudyResults(const StudyFile &study,
@@ -105,12 +128,7 @@ StudyResults::StudyResults(const StudyFile &study,
         ConvergenceSeries &s = series[rest];
         s.parameter = p;
         s.quantity = q;
-        s.others.clear();
-        for (std::size_t o = 0; o < rest.size(); ++o)
-          if (o != p && rest[o] != 0)
-            s.others += (s.others.empty() ? "" : ", ") +
-                        study.parameters[o].name + " " +
-                        study.parameters[o].values[rest[o]].label;
+        s.others = study.label(study.runs[run], p);
         s.spacing.push_back(
             study.parameters[p].values[study.runs[run].choice[p]].number);
         s.value.push_back(outcomes[run].quantities[q]);
@@ -180,14 +198,7 @@ double StudyResults::error(const std::size_t run,
 
 std::string StudyResults::label(const std::size_t run) const
 {
-  std::string text;
-  for (std::size_t p = 0; p < study.parameters.size(); ++p)
-  {
-    const std::size_t v = study.runs[run].choice[p];
-    if (v != 0)
-      text += (text.empty() ? "" : ", ") + study.parameters[p].name + " " +
-              study.parameters[p].values[v].label;
-  }
+  const std::string text = study.label(study.runs[run]);
   return text.empty() ? "base" : text;
 }
 

@@ -1,7 +1,9 @@
 #include "sabot/study/study.h"
 
+#include "sabot/base/hash.h"
 #include "sabot/output/checkpoint.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/study/pictures.h"
 #include "sabot/study/process_pool.h"
 #include "sabot/study/results.h"
 
@@ -67,26 +69,48 @@ void list_runs(const StudyArguments &arguments, const StudyFile &study)
   }
 }
 
+/** What tells builds of the program apart: its version may stay the same. */
+std::string build_of_program()
+{
+  const std::string program = own_program();
+  return sha256_of_file(program, fs::file_size(program)).substr(0, 16);
+}
+
+/** The build that made a run; empty when it is not known. */
+std::string build_of(const std::string &folder)
+{
+  std::ifstream file(folder + "/build.txt");
+  std::string build;
+  std::getline(file, build);
+  return build;
+}
+
 /** Run what is missing. @return whether nothing stopped it. */
 bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
 {
   std::vector<Command> commands;
   std::vector<const StudyRun *> started;
   std::set<std::string> seen;
-  std::size_t n_kept = 0;
+  const std::string build = build_of_program();
+  std::size_t n_kept = 0, n_of_other_builds = 0;
   for (const StudyRun &run : study.runs)
   {
     if (!seen.insert(run.key).second)
       continue; // two choices give the same scene
     const std::string folder = run_folder(arguments, run);
     const std::string status = read_outcome(folder, study.quantities).status;
-    if (status == "completed" || (status == "failed" && !arguments.retry))
+    const std::string built = build_of(folder);
+    const bool is_of_other_build = !built.empty() && built != build;
+    if ((status == "completed" || (status == "failed" && !arguments.retry)) &&
+        !(is_of_other_build && arguments.renew))
     {
       ++n_kept;
+      n_of_other_builds += is_of_other_build;
       continue;
     }
     make_folder(folder);
-    const bool resume = status != "failed" &&
+    write_text(folder + "/build.txt", build + "\n");
+    const bool resume = status != "failed" && !is_of_other_build &&
                         !CheckpointFolder::list(folder + "/checkpoint").empty();
     commands.push_back(command_for(study, run, folder, resume));
     started.push_back(&run);
@@ -96,6 +120,11 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
   if (!arguments.quiet)
     std::cout << seen.size() << " runs, " << n_kept << " of them kept from "
               << "before, " << n_processes << " at a time" << std::endl;
+  if (n_of_other_builds > 0)
+    std::cerr << "warning: " << n_of_other_builds
+              << " of the kept runs were made by another build of the program; "
+                 "--renew runs them again"
+              << std::endl;
   std::size_t n_ended = 0;
   const auto report = [&](const Ended &ended)
   {
@@ -114,36 +143,41 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
   return run_processes(commands, n_processes, report);
 }
 
-/** Pictures by VTK, in a process of its own under a display. */
-std::string draw_pictures(const std::vector<Chart> &charts,
-                          const std::string &folder)
+/** Charts, and sections through those runs that have fields and no picture of
+    them yet, as PNG files. @return what went wrong, in words. */
+std::string draw_all(const StudyArguments &arguments, const StudyFile &study,
+                     const std::vector<Chart> &charts,
+                     std::vector<StudyOutcome> &outcomes)
 {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  nlohmann::ordered_json drawings = nlohmann::ordered_json::array();
   for (const Chart &chart : charts)
-    list.push_back(to_json(chart));
-  make_folder(folder);
-  const std::string file = folder + "/charts.json";
-  write_text(file, list.dump(1) + "\n");
-  const std::string program =
-      fs::path(own_program()).parent_path().string() + "/sabot-charts";
-  Command command;
-  if (!fs::exists(program))
-    return "no PNG charts: \"" + program + "\" is missing; build all targets";
-  if (std::getenv("DISPLAY") == nullptr)
+    drawings.push_back(to_json(chart));
+  std::set<std::string> seen;
+  for (std::size_t run = 0; run < study.runs.size(); ++run)
   {
-    if (!is_on_path("xvfb-run"))
-      return "no PNG charts: there is neither a DISPLAY nor xvfb-run (Debian "
-             "packages xvfb and xauth); the report has its charts all the "
-             "same";
-    command.words = {"xvfb-run", "-a"};
+    PictureArguments picture;
+    picture.folder = run_folder(arguments, study.runs[run]);
+    picture.field = study.picture_field;
+    picture.times = study.picture_times;
+    const std::string label = study.label(study.runs[run]);
+    picture.title = study.title + (label.empty() ? "" : ": " + label);
+    const std::string fields = picture.folder + "/sabot.pvd";
+    if (!study.has_pictures || outcomes[run].status == "missing" ||
+        !fs::exists(fields))
+      continue;
+    // Other settings make another file.
+    picture.file = picture.folder + "/section-" +
+                   sha256(section_of(picture).dump()).substr(0, 8) + ".png";
+    outcomes[run].picture = picture.file;
+    if (seen.insert(picture.file).second &&
+        (!fs::exists(picture.file) ||
+         fs::last_write_time(picture.file) < fs::last_write_time(fields)))
+      drawings.push_back(section_of(picture));
   }
-  command.words.insert(command.words.end(), {program, file, folder});
-  command.log = folder + "/output.txt";
-  int code = 0;
-  run_processes({command}, 1, [&](const Ended &ended) { code = ended.code; });
-  return code == 0 ? ""
-                   : "no PNG charts: exit code " + std::to_string(code) + ": " +
-                         last_line(command.log);
+  const std::string folder = arguments.folder + "/charts";
+  make_folder(folder);
+  const std::string problem = draw_pictures(drawings, folder);
+  return problem.empty() ? "" : "no PNG pictures: " + problem;
 }
 } // namespace
 
@@ -172,13 +206,13 @@ ExitCode run_study(const StudyArguments &arguments)
     n_complete += outcome.is_complete();
     outcomes.push_back(outcome);
   }
-  const StudyResults results(study, outcomes);
+  StudyResults results(study, outcomes);
   const std::vector<Chart> charts = results.charts();
   write_csv(results, arguments.folder + "/study.csv");
   write_hdf5(results, arguments.folder + "/study.h5");
-  write_report(results, charts, arguments.folder + "/report.html");
   const std::string problem =
-      all_started ? draw_pictures(charts, arguments.folder + "/charts") : "";
+      all_started ? draw_all(arguments, study, charts, results.outcomes) : "";
+  write_report(results, charts, arguments.folder + "/report.html");
   if (!problem.empty())
     std::cerr << "warning: " << problem << std::endl;
   if (!arguments.quiet)

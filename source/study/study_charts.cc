@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace sabot
 {
@@ -21,48 +22,117 @@ std::string with_unit(const std::string &name, const std::string &unit)
 }
 
 Chart::Series level(const ErrorReference &reference, const double from,
-                    const double to)
+                    const double to, const double factor)
 {
   Chart::Series series;
   series.label = reference.origin;
   series.x = {from, to};
-  series.y = {reference.value, reference.value};
+  series.y = {factor * reference.value, factor * reference.value};
   series.is_dashed = true;
   return series;
 }
 
-Chart history_chart(const StudyResults &results, const std::size_t q)
+/** Number of the column of a quantity in the histories; 0: none. */
+std::size_t column_of(const History::Table &table, const std::string &name)
+{
+  for (std::size_t c = 1; c < table.columns.size(); ++c)
+    if (table.columns[c].compare(0, name.size() + 2, name + " [") == 0)
+      return c;
+  return 0;
+}
+
+/** Factor from SI to what is drawn, and its unit: lengths are in mm. */
+std::pair<double, std::string> drawn_unit(const std::string &unit)
+{
+  return unit == "m" ? std::make_pair(1e3, std::string("mm"))
+                     : std::make_pair(1., unit);
+}
+
+/** Histories of some runs over time, or over another quantity. */
+Chart history_chart(const StudyResults &results, const std::size_t q,
+                    const std::vector<std::size_t> &runs,
+                    const std::string &varied, const std::string &over)
 {
   const std::string &name = results.study.quantities[q].name;
+  const auto [factor, unit] = drawn_unit(results.unit(q));
   Chart chart;
-  chart.name = "history-" + file_name(name);
-  chart.title = name + " over time";
-  chart.x_label = "time [ms]";
-  chart.y_label = with_unit(name, results.unit(q));
-  double end = 0.;
-  for (std::size_t run = 0; run < results.outcomes.size(); ++run)
+  chart.name = file_name(name) + (over.empty() ? "-history" : "-over-") +
+               file_name(over) + (varied.empty() ? "" : "-by-") +
+               file_name(varied);
+  chart.title = name + " over " + (over.empty() ? "time" : over) +
+                (varied.empty() ? "" : ", by " + varied);
+  chart.x_label = over.empty() ? "time [ms]" : over;
+  chart.y_label = with_unit(name, unit);
+  double low = 0., high = 0.;
+  for (const std::size_t run : runs)
   {
     const History::Table &table = results.outcomes[run].history;
-    const std::size_t n_columns = table.columns.size();
-    std::size_t column = 0;
-    for (std::size_t c = 1; c < n_columns; ++c)
-      if (table.columns[c].compare(0, name.size() + 2, name + " [") == 0)
-        column = c;
-    if (column == 0)
+    const std::size_t n_columns = table.columns.size(),
+                      column = column_of(table, name),
+                      x_column = over.empty() ? 0 : column_of(table, over);
+    if (column == 0 || (!over.empty() && x_column == 0))
       continue;
+    double x_factor = 1e3;
+    if (!over.empty())
+    {
+      const std::string &head = table.columns[x_column];
+      const std::size_t from = over.size() + 2;
+      const auto x_unit = drawn_unit(head.substr(from, head.size() - from - 1));
+      x_factor = x_unit.first;
+      chart.x_label = with_unit(over, x_unit.second);
+    }
     Chart::Series series;
     series.label = results.label(run);
     for (std::size_t row = 0; row < table.n_rows(); ++row)
     {
-      series.x.push_back(1e3 * table.values[n_columns * row]);
-      series.y.push_back(table.values[n_columns * row + column]);
-      end = std::max(end, series.x.back());
+      series.x.push_back(x_factor * table.values[n_columns * row + x_column]);
+      series.y.push_back(factor * table.values[n_columns * row + column]);
+      low = std::min(low, series.x.back());
+      high = std::max(high, series.x.back());
     }
     chart.series.push_back(series);
   }
   if (std::isfinite(results.study.quantities[q].measured))
-    chart.series.push_back(level(results.references[q], 0., end));
+    chart.series.push_back(level(results.references[q], low, high, factor));
   return chart;
+}
+
+/** Places of a parameter's values on an axis. */
+struct Places
+{
+  std::string label; // of the axis
+  std::vector<double> x;
+};
+
+Places places_of(const StudyParameter &parameter)
+{
+  Places places;
+  std::string unit;
+  bool same_unit = true, numbers = true;
+  for (const StudyParameter::Value &value : parameter.values)
+  {
+    char *end = nullptr;
+    places.x.push_back(std::strtod(value.label.c_str(), &end));
+    std::string rest = end;
+    rest.erase(0, rest.find_first_not_of(' '));
+    same_unit = same_unit && (places.x.size() == 1 || rest == unit);
+    unit = rest;
+    numbers = numbers && std::isfinite(value.number);
+  }
+  if (numbers && same_unit)
+    places.label = with_unit(parameter.name, unit);
+  else
+  {
+    places.label = parameter.name + (numbers ? " (SI)" : ":");
+    for (std::size_t v = 0; v < parameter.values.size(); ++v)
+    {
+      places.x[v] = numbers ? parameter.values[v].number : v + 1.;
+      if (!numbers)
+        places.label +=
+            " " + std::to_string(v + 1) + " " + parameter.values[v].label;
+    }
+  }
+  return places;
 }
 
 Chart parameter_chart(const StudyResults &results, const std::size_t q,
@@ -71,17 +141,13 @@ Chart parameter_chart(const StudyResults &results, const std::size_t q,
   const StudyFile &study = results.study;
   const StudyParameter &parameter = study.parameters[p];
   const std::string &name = study.quantities[q].name;
+  const auto [factor, unit] = drawn_unit(results.unit(q));
+  const Places places = places_of(parameter);
   Chart chart;
-  chart.name = file_name(name) + "-over-" + file_name(parameter.name);
-  chart.title = name + " over " + parameter.name;
-  chart.y_label = with_unit(name, results.unit(q));
-  const bool numbers = std::all_of(
-      parameter.values.begin(), parameter.values.end(),
-      [](const StudyParameter::Value &v) { return std::isfinite(v.number); });
-  chart.x_label = parameter.name + (numbers ? " (SI)" : ":");
-  for (std::size_t v = 0; v < parameter.values.size() && !numbers; ++v)
-    chart.x_label +=
-        " " + std::to_string(v + 1) + " " + parameter.values[v].label;
+  chart.name = file_name(name) + "-at-" + file_name(parameter.name);
+  chart.title = name + " at " + parameter.name;
+  chart.x_label = places.label;
+  chart.y_label = with_unit(name, unit);
   std::map<std::vector<std::size_t>, std::vector<std::pair<double, double>>>
       groups;
   std::map<std::vector<std::size_t>, std::size_t> first_run;
@@ -91,13 +157,11 @@ Chart parameter_chart(const StudyResults &results, const std::size_t q,
     std::vector<std::size_t> rest = study.runs[run].choice;
     const std::size_t v = rest[p];
     rest[p] = 0;
-    const bool is_base =
-        std::all_of(rest.begin(), rest.end(),
-                    [](const std::size_t choice) { return choice == 0; });
-    if (!results.outcomes[run].is_complete() || (!study.is_grid && !is_base))
+    if (!results.outcomes[run].is_complete() ||
+        (!study.is_grid && !study.varies_only(study.runs[run], p)))
       continue;
-    const double x = numbers ? parameter.values[v].number : v + 1.;
-    groups[rest].emplace_back(x, results.outcomes[run].quantities[q]);
+    const double x = places.x[v];
+    groups[rest].emplace_back(x, factor * results.outcomes[run].quantities[q]);
     first_run.emplace(rest, run);
     low = std::min(low, x);
     high = std::max(high, x);
@@ -106,11 +170,7 @@ Chart parameter_chart(const StudyResults &results, const std::size_t q,
   {
     std::sort(points.begin(), points.end());
     Chart::Series series;
-    std::string others;
-    for (std::size_t o = 0; o < rest.size(); ++o)
-      if (o != p && rest[o] != 0)
-        others += (others.empty() ? "" : ", ") + study.parameters[o].name +
-                  " " + study.parameters[o].values[rest[o]].label;
+    const std::string others = study.label(study.runs[first_run[rest]], p);
     series.label = others.empty() ? "runs" : others;
     series.has_points = true;
     for (const auto &[x, y] : points)
@@ -121,7 +181,7 @@ Chart parameter_chart(const StudyResults &results, const std::size_t q,
     chart.series.push_back(series);
   }
   if (std::isfinite(results.references[q].value) && low <= high)
-    chart.series.push_back(level(results.references[q], low, high));
+    chart.series.push_back(level(results.references[q], low, high, factor));
   return chart;
 }
 
@@ -144,6 +204,7 @@ Chart cost_chart(const StudyResults &results, const std::size_t q)
     {
       all.x.push_back(results.outcomes[run].cpu_seconds);
       all.y.push_back(100. * results.error(run, q));
+      all.names.push_back(results.label(run));
     }
   front.label = "Pareto front:";
   front.has_points = true;
@@ -152,6 +213,7 @@ Chart cost_chart(const StudyResults &results, const std::size_t q)
     front.label += (front.x.empty() ? " " : "; ") + results.label(run);
     front.x.push_back(results.outcomes[run].cpu_seconds);
     front.y.push_back(100. * results.error(run, q));
+    front.names.push_back(results.label(run));
   }
   chart.series = {all, front};
   return chart;
@@ -163,7 +225,21 @@ std::vector<Chart> StudyResults::charts() const
   std::vector<Chart> charts;
   for (std::size_t q = 0; q < study.quantities.size(); ++q)
   {
-    charts.push_back(history_chart(*this, q));
+    // A chart for each parameter, where one is varied at a time, stays
+    // readable.
+    const bool is_split = !study.is_grid && study.parameters.size() > 1;
+    for (std::size_t p = 0; p < (is_split ? study.parameters.size() : 1); ++p)
+    {
+      std::vector<std::size_t> runs;
+      for (std::size_t run = 0; run < outcomes.size(); ++run)
+        if (!is_split || study.varies_only(study.runs[run], p))
+          runs.push_back(run);
+      const std::string varied = is_split ? study.parameters[p].name : "";
+      charts.push_back(history_chart(*this, q, runs, varied, ""));
+      if (!study.quantities[q].over.empty())
+        charts.push_back(
+            history_chart(*this, q, runs, varied, study.quantities[q].over));
+    }
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
       charts.push_back(parameter_chart(*this, q, p));
     charts.push_back(cost_chart(*this, q));

@@ -132,6 +132,15 @@ void StudyFile::declare(dealii::ParameterHandler &prm,
                     "Runs at the same time.");
   prm.declare_entry("Ranks per run", "1", Patterns::Integer(1, 4096),
                     "MPI ranks of each run.");
+  prm.declare_entry("Pictures", "true", Patterns::Bool(),
+                    "Whether the report shows a section through each run that "
+                    "has fields (outputs of type VTU).");
+  prm.declare_entry("Picture field", "", Patterns::Anything(),
+                    "Field that colours the sections; none: effective plastic "
+                    "strain, or velocity where nothing can yield.");
+  prm.declare_entry("Picture times", "", Patterns::Anything(),
+                    "Times of the sections, separated by commas; none: the end "
+                    "of the run.");
   prm.enter_subsection("Parameters");
   for (const std::string &name : parameter_names)
   {
@@ -162,6 +171,9 @@ void StudyFile::declare(dealii::ParameterHandler &prm,
                       "Of the experiment, with unit; nan: none.");
     prm.declare_entry("Source", "", Patterns::Anything(),
                       "Where the measured value comes from.");
+    prm.declare_entry("Over", "", Patterns::Anything(),
+                      "Another quantity of the scene: the histories are also "
+                      "drawn over it, as velocity over depth.");
     prm.leave_subsection();
   }
   prm.leave_subsection();
@@ -204,6 +216,9 @@ void StudyFile::read(const ParameterFile &file)
   n_processes = prm.get_integer("Processes");
   n_ranks = prm.get_integer("Ranks per run");
   fixed = split(prm.get("Fixed entries"), ';');
+  has_pictures = prm.get_bool("Pictures");
+  picture_field = prm.get("Picture field");
+  picture_times = prm.get("Picture times");
   for (const std::string &name : names)
   {
     prm.enter_subsection("Parameters");
@@ -222,6 +237,7 @@ void StudyFile::read(const ParameterFile &file)
     StudyQuantity quantity;
     quantity.name = name;
     quantity.source = prm.get("Source");
+    quantity.over = prm.get("Over");
     const std::string measured = prm.get("Measured value");
     if (measured != "nan")
     {
@@ -234,6 +250,25 @@ void StudyFile::read(const ParameterFile &file)
     prm.leave_subsection();
     prm.leave_subsection();
   }
+}
+
+bool StudyFile::varies_only(const StudyRun &run, const std::size_t p) const
+{
+  for (std::size_t o = 0; o < run.choice.size(); ++o)
+    if (o != p && run.choice[o] != 0)
+      return false;
+  return true;
+}
+
+std::string StudyFile::label(const StudyRun &run,
+                             const std::size_t except) const
+{
+  std::string text;
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    if (p != except && run.choice[p] != 0)
+      text += (text.empty() ? "" : ", ") + parameters[p].name + " " +
+              parameters[p].values[run.choice[p]].label;
+  return text;
 }
 
 void StudyFile::list_runs()
@@ -277,15 +312,23 @@ void StudyFile::list_runs()
     run.key = sha256(text.str()).substr(0, 16);
     const std::vector<std::string> known =
         split_names(prm.get("List of quantities"));
-    for (const StudyQuantity &quantity : quantities)
-      if (std::find(known.begin(), known.end(), quantity.name) == known.end())
+    const auto check_known =
+        [&](const std::string &entry, const std::string &name)
+    {
+      if (!name.empty() &&
+          std::find(known.begin(), known.end(), name) == known.end())
         throw InputError(
-            "Quantities/" + quantity.name,
-            "scene \"" + run.scene + "\" has no quantity of this name" +
-                (known.empty()
-                     ? std::string()
-                     : "; did you mean \"" +
-                           nearest_name(quantity.name, known) + "\"?"));
+            entry, "scene \"" + run.scene + "\" has no quantity \"" + name +
+                       "\"" +
+                       (known.empty() ? std::string()
+                                      : "; did you mean \"" +
+                                            nearest_name(name, known) + "\"?"));
+    };
+    for (const StudyQuantity &quantity : quantities)
+    {
+      check_known("Quantities/" + quantity.name, quantity.name);
+      check_known("Quantities/" + quantity.name + "/Over", quantity.over);
+    }
     runs.push_back(run);
   }
 }

@@ -32,7 +32,11 @@ void write_csv(const StudyResults &results, const std::string &file)
     csv << "," << field(study.quantities[q].name + " [" + results.unit(q) + "]")
         << "," << field("relative error of " + study.quantities[q].name);
   csv << ",CPU time [s],wall time [s],steps,cells and particles,"
-         "energy residual,zone,reason\n";
+         "energy residual";
+  const std::vector<std::string> parts = energy_parts(results);
+  for (const std::string &part : parts)
+    csv << "," << field("energy " + part + " [J]");
+  csv << ",zone,reason\n";
   const auto number = [&](const double value)
   {
     csv << ",";
@@ -55,6 +59,8 @@ void write_csv(const StudyResults &results, const std::string &file)
          {outcome.cpu_seconds, outcome.wall_seconds, outcome.steps,
           outcome.items, outcome.energy_residual})
       number(value);
+    for (const std::string &part : parts)
+      number(outcome.energy_of(part));
     csv << "," << field(outcome.zone) << "," << field(outcome.reason) << "\n";
   }
   write_text(file, csv.str());

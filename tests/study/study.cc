@@ -81,6 +81,15 @@ TEST(Hash, of_known_texts)
                         "27ae41e4649b934ca495991b7852b855");
 }
 
+TEST(Base64, of_known_texts)
+{
+  // RFC 4648, section 10.
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
 TEST(Zone, distance_from_the_tie_counts_tied_faces_only)
 {
   ZoneBox zone;

@@ -13,6 +13,9 @@ inline std::string sha256(const std::string &text)
   return sha256(text.data(), text.size());
 }
 
+/** Base64 (RFC 4648), by OpenSSL. */
+std::string base64(const std::string &bytes);
+
 /** SHA-256 of the first @p n_bytes of a file; empty when it cannot be read or
     is shorter. */
 std::string sha256_of_file(const std::string &file, const std::size_t n_bytes);

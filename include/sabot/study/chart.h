@@ -15,7 +15,8 @@ struct Chart
   struct Series
   {
     std::string label;
-    std::vector<double> x, y; // points that are not finite are left out
+    std::vector<double> x, y;       // points that are not finite are left out
+    std::vector<std::string> names; // of the points, in the report; or empty
     bool has_line = true, has_points = false, is_dashed = false;
   };
   std::string name; // of its file

@@ -23,10 +23,14 @@ struct StudyOutcome
          wall_seconds = std::numeric_limits<double>::quiet_NaN(),
          energy_residual = std::numeric_limits<double>::quiet_NaN();
   double steps = 0., items = 0.; // cells and particles
-  std::string zone;              // its verdicts in words
+  /** Parts of the energy balance at the end, as in result.json. [J] */
+  std::vector<std::pair<std::string, double>> energy;
+  std::string zone;    // its verdicts in words
+  std::string picture; // file with a section through it; or empty
   /** Time and quantities; empty when there is no history. */
   History::Table history;
 
+  double energy_of(const std::string &part) const; // NaN: none
   bool is_complete() const { return status == "completed"; }
 };
 
@@ -65,11 +69,14 @@ struct StudyResults
 
   /** Relative to the reference. */
   double error(const std::size_t run, const std::size_t quantity) const;
-  /** The values of a run's parameters that are not the base's. */
+  /** What sets a run apart from the base, or "base". */
   std::string label(const std::size_t run) const;
   std::string unit(const std::size_t quantity) const;
   std::vector<Chart> charts() const;
 };
+
+/** Names of the parts of the energy that are not zero in every run. */
+std::vector<std::string> energy_parts(const StudyResults &results);
 
 /** Tables: study.csv and study.h5 (numbers of all runs, and their histories).
     IOError. */

@@ -14,6 +14,7 @@ struct StudyArguments
   std::vector<std::string> overrides;
   unsigned int n_processes = 0; // 0: as the study says
   bool retry = false;           // run again what failed
+  bool renew = false;           // and what another build of the program made
   bool quiet = false;
   bool list = false; // only say which runs there are
 };
@@ -23,7 +24,8 @@ struct StudyArguments
  * FOLDER/runs/<key>, where the key is a hash of the program's version and the
  * run's expanded parameters; then write study.csv, study.h5, report.html and
  * charts/. Runs that are complete or failed are kept, interrupted ones
- * resumed. Must be called before MPI is initialized. InputError, IOError.
+ * resumed; what another build made is named, or with @p renew run again. Must
+ * be called before MPI is initialized. InputError, IOError.
  */
 ExitCode run_study(const StudyArguments &arguments);
 } // namespace sabot

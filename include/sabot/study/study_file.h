@@ -39,6 +39,7 @@ struct StudyParameter
 struct StudyQuantity
 {
   std::string name, source;
+  std::string over; // quantity over which its history is drawn, too; or empty
   double measured = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -62,7 +63,9 @@ struct StudyFile
   std::string title, scene;
   bool is_grid;
   unsigned int n_processes, n_ranks;
-  std::vector<std::string> fixed; // overrides of every run
+  std::vector<std::string> fixed;           // overrides of every run
+  bool has_pictures;                        // of sections through the runs
+  std::string picture_field, picture_times; // as `sabot picture` takes them
   std::vector<StudyParameter> parameters;
   std::vector<StudyQuantity> quantities;
   std::vector<StudyRun> runs; // the first is the base
@@ -70,6 +73,13 @@ struct StudyFile
   static void declare(dealii::ParameterHandler &prm,
                       const std::vector<std::string> &parameter_names,
                       const std::vector<std::string> &quantity_names);
+
+  /** Whether a run differs from the base in no other parameter than @p p. */
+  bool varies_only(const StudyRun &run, const std::size_t p) const;
+  /** The values of a run's parameters that are not the base's, in words,
+      @p except that of one. */
+  std::string label(const StudyRun &run,
+                    const std::size_t except = std::size_t(-1)) const;
 
 private:
   void read(const ParameterFile &file);

@@ -1,0 +1,143 @@
+#include "sabot/study/pictures.h"
+
+#include "sabot/base/quantity.h"
+#include "sabot/output/file_tools.h"
+#include "sabot/study/process_pool.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace sabot
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** Values of a comma-separated list of quantities [SI]. */
+std::vector<double> quantities(const std::string &option,
+                               const std::string &text,
+                               const Dimension dimension,
+                               const unsigned int n_min,
+                               const unsigned int n_max)
+{
+  const QuantityPattern pattern(dimension, n_min, n_max,
+                                -QuantityPattern::infinity,
+                                QuantityPattern::infinity);
+  if (!pattern.match(text))
+    throw InputError("", option + ": \"" + text + "\" should be " +
+                             pattern.description());
+  dealii::ParameterHandler prm;
+  prm.declare_entry("values", text, pattern);
+  return get_quantities(prm, "values");
+}
+
+std::string title_of(const std::string &folder)
+{
+  std::ifstream file(folder + "/result.json");
+  const nlohmann::json result = nlohmann::json::parse(file, nullptr, false);
+  return file && result.is_object() ? result.value("title", "") : "";
+}
+
+std::string all_lines(const std::string &file)
+{
+  std::ifstream stream(file);
+  std::string text;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty())
+      text += (text.empty() ? "" : "; ") +
+              (line.compare(0, 7, "error: ") == 0 ? line.substr(7) : line);
+  return text;
+}
+} // namespace
+
+nlohmann::ordered_json section_of(const PictureArguments &arguments)
+{
+  nlohmann::ordered_json section;
+  section["kind"] = "section";
+  section["folder"] = fs::absolute(arguments.folder).string();
+  section["file"] =
+      fs::absolute(arguments.file.empty() ? arguments.folder + "/section.png"
+                                          : arguments.file)
+          .string();
+  if (!arguments.field.empty())
+    section["field"] = arguments.field;
+  section["title"] =
+      arguments.title.empty() ? title_of(arguments.folder) : arguments.title;
+  constexpr unsigned int most_panels = 12;
+  if (!arguments.times.empty())
+    section["times"] =
+        quantities("--time", arguments.times, Dimension::time, 1, most_panels);
+  if (!arguments.normal.empty())
+    section["normal"] = arguments.normal;
+  if (!arguments.position.empty())
+    section["position"] =
+        quantities("--at", arguments.position, Dimension::length, 1, 1)[0];
+  if (!arguments.range.empty())
+    section["range"] =
+        quantities("--range", arguments.range, Dimension::none, 2, 2);
+  if (!arguments.window.empty())
+    section["window"] =
+        quantities("--window", arguments.window, Dimension::length, 4, 4);
+  for (const char *const pair : {"range", "window"})
+    if (section.contains(pair))
+      for (std::size_t i = 0; i + 1 < section[pair].size(); i += 2)
+        if (!(section[pair][i] < section[pair][i + 1]))
+          throw InputError("", "--" + std::string(pair) +
+                                   ": the first of two limits must be the "
+                                   "lower one");
+  return section;
+}
+
+std::string draw_pictures(const nlohmann::ordered_json &drawings,
+                          const std::string &folder)
+{
+  const std::string program =
+      fs::path(own_program()).parent_path().string() + "/sabot-charts";
+  Command command;
+  if (!fs::exists(program))
+    return "\"" + program + "\" is missing; build all targets";
+  if (std::getenv("DISPLAY") == nullptr)
+  {
+    if (!is_on_path("xvfb-run"))
+      return "there is neither a DISPLAY nor xvfb-run (Debian packages xvfb "
+             "and xauth)";
+    command.words = {"xvfb-run", "-a"};
+  }
+  const std::string file = folder + "/drawings.json";
+  write_text(file, drawings.dump(1) + "\n");
+  command.words.insert(command.words.end(), {program, file, folder});
+  command.log = folder + "/drawings.txt";
+  int code = 0;
+  const bool started = run_processes(
+      {command}, 1, [&](const Ended &ended) { code = ended.code; });
+  if (!started)
+    return "a signal asked to stop";
+  if (code == 0)
+    return "";
+  const std::string said = all_lines(command.log);
+  return said.empty()
+             ? "sabot-charts ended with exit code " + std::to_string(code)
+             : said;
+}
+
+ExitCode draw_picture(const PictureArguments &arguments)
+{
+  const nlohmann::ordered_json section = section_of(arguments);
+  if (!fs::exists(arguments.folder + "/sabot.pvd"))
+    throw InputError("", "\"" + arguments.folder +
+                             "\" holds no fields (sabot.pvd) of a run");
+  const std::string file = section["file"];
+  const std::string folder = fs::path(file).parent_path().string();
+  make_folder(folder);
+  const std::string problem =
+      draw_pictures(nlohmann::ordered_json::array({section}), folder);
+  for (const char *const left : {"/drawings.json", "/drawings.txt"})
+    fs::remove(folder + left);
+  if (!problem.empty())
+    throw IOError("no picture: " + problem);
+  std::cout << file << std::endl;
+  return ExitCode::done;
+}
+} // namespace sabot
