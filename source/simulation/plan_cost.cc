@@ -2,13 +2,9 @@
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/integrator/central_difference.h"
 #include "sabot/output/checkpoint.h"
-#include "sabot/simulation/plan.h"
+#include "sabot/simulation/plan_output.h"
 
 #include <sys/resource.h>
-
-#include <vtkNew.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkZLibDataCompressor.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,182 +21,32 @@ double since(const Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/** Part that zlib leaves of arbitrary doubles. */
-constexpr double part_of_noise = 0.95;
-/** VTK compresses blocks of this size. [bytes] */
-constexpr std::size_t block = 32768;
-
-template <typename T>
-double compressed_size(const std::vector<T> &values)
-{
-  vtkNew<vtkZLibDataCompressor> compressor;
-  compressor->SetCompressionLevel(1);
-  const std::size_t n = values.size() * sizeof(T);
-  const auto *const bytes =
-      reinterpret_cast<const unsigned char *>(values.data());
-  std::vector<unsigned char> room(
-      compressor->GetMaximumCompressionSpace(block));
-  double total = 0.;
-  for (std::size_t i = 0; i < n; i += block)
-    total += compressor->Compress(bytes + i, std::min(block, n - i),
-                                  room.data(), room.size());
-  return total;
-}
-
-/** Range of the nodes of a body, over all ranks. */
-struct Extent
-{
-  double low[3], high[3];
-  explicit Extent(const Body &body, MPI_Comm communicator)
-  {
-    double values[6];
-    std::fill(values, values + 6, 1e300);
-    for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-      for (int d = 0; d < 3; ++d)
-      {
-        values[d] = std::min(values[d], body.nodes().position[i][d]);
-        values[3 + d] = std::min(values[3 + d], -body.nodes().position[i][d]);
-      }
-    MPI_Allreduce(MPI_IN_PLACE, values, 6, MPI_DOUBLE, MPI_MIN, communicator);
-    for (int d = 0; d < 3; ++d)
-    {
-      low[d] = values[d];
-      high[d] = -values[3 + d];
-    }
-  }
-  double distance(const Vec x) const
-  {
-    double square = 0.;
-    for (int d = 0; d < 3; ++d)
-      square += std::pow(std::max({0., low[d] - x[d], x[d] - high[d]}), 2);
-    return std::sqrt(square);
-  }
-};
-
-/** Distances of the nodes from where waves start: the other bodies that move
-    otherwise. Empty when there is no such body. [m] */
-std::vector<double> wave_distances(const Scene &scene, const std::size_t body,
-                                   MPI_Comm communicator)
-{
-  std::vector<Extent> sources;
-  const auto velocity = [](const Body &b)
-  {
-    std::array<double, 3> v{};
-    for (const Measure &m : b.measure())
-      for (int d = 0; d < 3; ++d)
-        if (m.name == std::string("velocity ") + "xyz"[d])
-          v[d] = m.value;
-    return v;
-  };
-  std::vector<std::array<double, 3>> velocities;
-  for (const auto &b : scene.bodies)
-    velocities.push_back(velocity(*b));
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (velocities[b] != velocities[body])
-      sources.emplace_back(*scene.bodies[b], communicator);
-  std::vector<double> distances;
-  if (sources.empty())
-    return distances;
-  const NodalState &nodes = scene.bodies[body]->nodes();
-  for (std::size_t i = 0; i < nodes.n_owned; ++i)
-  {
-    double nearest = 1e300;
-    for (const Extent &source : sources)
-      nearest = std::min(nearest, source.distance(nodes.position[i]));
-    distances.push_back(nearest);
-  }
-  return distances;
-}
-
 double sum_over_ranks(double value, MPI_Comm communicator)
 {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, communicator);
   return value;
 }
 
-/** Bytes of all field outputs, and seconds to compress them once. */
-/** Time between energy checks is the run's over this (as in run.cc). */
-constexpr double n_checks = 200.;
-
-double n_history_rows(const Scene &scene)
+/** Mean time of a step in the median of up to nine stretches of equally many
+    steps: what else the machine did in one of them does not count, kernel
+    updates and searches do. [s] */
+double typical_seconds(const std::vector<double> &seconds)
 {
-  double n = 0.;
-  for (const OutputSettings &output : scene.outputs)
-    if (output.type == OutputSettings::Type::history)
-      n += std::floor(scene.settings.end_time / output.interval) + 1.;
-  return n;
-}
-
-/** Wall time of one row of the histories [s]. */
-double seconds_per_row(const Scene &scene)
-{
-  const auto start = Clock::now();
-  EnergyLedger ledger;
-  for (const auto &body : scene.bodies)
+  constexpr std::size_t least_stretch = 60; // two kernel updates, as a rule
+  const std::size_t n =
+      std::clamp<std::size_t>(seconds.size() / least_stretch, 1, 9);
+  std::vector<double> means;
+  for (std::size_t k = 0; k < n; ++k)
   {
-    body->add_energies(ledger);
-    body->measure();
+    const std::size_t begin = seconds.size() * k / n,
+                      end = seconds.size() * (k + 1) / n;
+    double sum = 0.;
+    for (std::size_t s = begin; s < end; ++s)
+      sum += seconds[s];
+    means.push_back(sum / (end - begin));
   }
-  for (const QuantityOfInterest &quantity : scene.quantities)
-    scene.bodies[quantity.body]->measure();
-  return since(start);
-}
-
-void plan_output(const Scene &scene, const PhysicsPlan &physics, CostPlan &plan,
-                 double &seconds, MPI_Comm communicator)
-{
-  const double end = scene.settings.end_time;
-  double bytes = 0., once = 0.;
-  double n_frames = 0.;
-  std::vector<double> times;
-  for (const OutputSettings &output : scene.outputs)
-    if (output.type == OutputSettings::Type::vtu)
-    {
-      n_frames = std::floor(end / output.interval * (1. + 1e-9)) + 1.;
-      // Many frames are sampled by a hundred.
-      const double n_samples = std::min(n_frames, 100.);
-      for (double k = 0.; k < n_samples; k += 1.)
-        times.push_back(end * k / std::max(1., n_samples - 1.));
-    }
-  for (std::size_t b = 0; b < scene.bodies.size() && !times.empty(); ++b)
-  {
-    const Body &body = *scene.bodies[b];
-    const auto start = Clock::now();
-    bool is_host = false;
-    for (const auto &other : scene.bodies)
-      if (other->item_name() == "particles" && body.item_name() == "cells")
-        is_host = true;
-    double speed = 0.;
-    for (const Measure &m : body.measure())
-      if (m.name.compare(0, 9, "velocity ") == 0)
-        speed += m.value * m.value;
-    // The far field of a zone yields only beside it.
-    const FieldSize size =
-        field_size(body.output_mesh(), !(is_host && speed == 0.));
-    once += since(start);
-    const std::vector<double> distances =
-        wave_distances(scene, b, communicator);
-    const double c = physics.bodies[b].wave_speed;
-    for (const double t : times)
-    {
-      double n_disturbed = 0.;
-      for (const double distance : distances)
-        n_disturbed += distance <= c * t;
-      const double part =
-          distances.empty() ? 0. : n_disturbed / distances.size();
-      bytes += (size.quiet + part * (size.disturbed - size.quiet)) * n_frames /
-               times.size();
-    }
-  }
-  // History: rows of all tables, also those of the regular energy checks.
-  double columns = 12.;
-  for (const auto &body : scene.bodies)
-    columns += 1. + body->measure().size();
-  columns += scene.quantities.empty() ? 0. : 1. + scene.quantities.size();
-  plan.output_bytes = sum_over_ranks(bytes, communicator) +
-                      8. * columns * (n_history_rows(scene) + n_checks);
-  // Compression is what takes the time; frames full of numbers take longer.
-  seconds = 2. * once * n_frames;
+  std::nth_element(means.begin(), means.begin() + n / 2, means.end());
+  return means[n / 2];
 }
 
 /** Integral over the rest of the run of the step now over the step then [s]. */
@@ -217,30 +63,6 @@ double steps_left(const ImpactFacts &impact, const double now, const double end)
   return std::max(0., end - now) * sum / n;
 }
 } // namespace
-
-FieldSize field_size(const OutputMesh &mesh, const bool all_yield)
-{
-  FieldSize size{0., 0.};
-  const double points = compressed_size(mesh.points);
-  size.quiet += points;
-  size.disturbed += part_of_noise * 8. * mesh.points.size();
-  const double cells = compressed_size(mesh.connectivity);
-  size.quiet += cells;
-  size.disturbed += cells;
-  for (const auto *const fields : {&mesh.point_fields, &mesh.cell_fields})
-    for (const OutputField &field : *fields)
-    {
-      const double now = compressed_size(field.values);
-      size.quiet += now;
-      const bool is_constant = field.name == "body" || field.name == "rank" ||
-                               field.name == "failed-bond fraction";
-      const bool is_flow = field.unit == "1" || field.unit == "K";
-      size.disturbed += is_constant || (is_flow && !all_yield)
-                            ? now
-                            : part_of_noise * 8. * field.values.size();
-    }
-  return size;
-}
 
 CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
                    const double seconds, MPI_Comm communicator)
@@ -266,8 +88,7 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     }
     plan.items.push_back(item);
   }
-  double output_seconds = 0.;
-  plan_output(scene, physics, plan, output_seconds, communicator);
+  const OutputEstimate output(scene, physics, communicator);
   {
     StateSaver saver;
     for (const auto &body : scene.bodies)
@@ -280,10 +101,11 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
 
   constexpr unsigned int least_steps = 6;
   const double end = scene.settings.end_time * (1. - 1e-12);
-  std::vector<double> steps;
+  std::vector<double> steps, step_seconds;
   const auto calibration = Clock::now();
   for (bool go_on = true; go_on;)
   {
+    const auto step_start = Clock::now();
     const StepProposal proposal = integrator.propose(false);
     if (steps.empty())
     {
@@ -304,14 +126,16 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     catch (const PhysicsError &e)
     {
       plan.problem = e.what();
+      step_seconds.push_back(since(step_start));
       break;
     }
+    step_seconds.push_back(since(step_start));
     int more = integrator.time < end &&
                (steps.size() < least_steps || since(calibration) < seconds);
     MPI_Bcast(&more, 1, MPI_INT, 0, communicator);
     go_on = more != 0;
   }
-  plan.seconds_per_step = since(calibration) / steps.size();
+  plan.seconds_per_step = typical_seconds(step_seconds);
   plan.calibration_steps = steps.size();
   double sum = 0.;
   const std::size_t half = steps.size() / 2;
@@ -322,9 +146,9 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
                                          scene.settings.end_time) /
                                   plan.mean_step;
   plan.steps = std::ceil(plan.steps * (1. - 1e-9));
-  const double n_rows = std::min(plan.steps, n_history_rows(scene) + n_checks);
+  plan.output_bytes = output.bytes(integrator.time);
   plan.seconds = plan.set_up_seconds + plan.steps * plan.seconds_per_step +
-                 n_rows * seconds_per_row(scene) + output_seconds;
+                 output_seconds(scene, plan.steps, communicator);
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   plan.memory_bytes = sum_over_ranks(1024. * usage.ru_maxrss, communicator);
