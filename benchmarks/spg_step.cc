@@ -98,7 +98,7 @@ void convex_second_gradient(benchmark::State &state)
 BENCHMARK(elastic_unstabilised)->Arg(22);
 BENCHMARK(elastic_bond_residual)->Arg(22);
 BENCHMARK(johnson_cook_unstabilised)->Arg(22);
-BENCHMARK(johnson_cook_bond_residual)->Arg(22)->Arg(47);
+BENCHMARK(johnson_cook_bond_residual)->Arg(22)->Arg(47)->Arg(100);
 BENCHMARK(convex_bond_residual)->Arg(22);
 BENCHMARK(convex_second_gradient)->Arg(22);
 } // namespace

@@ -93,8 +93,10 @@ public:
       : view(view), colours(make_colours(view.range))
   {
     double origin[3] = {0., 0., 0.}, normal[3] = {0., 0., 0.};
-    // A hair inside: a symmetry plane lies on the faces of the cells.
-    origin[view.normal] = view.position + 1e-6 * view.width();
+    // A little inside: a symmetry plane lies on the faces of the cells, and
+    // meshes have many nodes there, some a hair on this side, some on the
+    // other.
+    origin[view.normal] = view.position + 2e-3 * view.width();
     normal[view.normal] = 1.;
     plane->SetOrigin(origin);
     plane->SetNormal(normal);

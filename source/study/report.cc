@@ -111,8 +111,8 @@ void write_energies(const StudyResults &results, std::ostream &html)
       html << cell(number(results.outcomes[run].energy_of(part), "%.4g"));
     html << "</tr>\n";
   }
-  html << "</table></div><p>Plastic work is a part of the internal "
-          "energy.</p>\n";
+  html << "</table></div><p>Plastic work tells how much was dissipated; it is "
+          "no part of the balance by itself.</p>\n";
 }
 
 std::string file_contents(const std::string &file)

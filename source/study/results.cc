@@ -198,6 +198,15 @@ double StudyResults::error(const std::size_t run,
 
 std::string StudyResults::label(const std::size_t run) const
 {
+  // All values where there is no base that the runs have in common.
+  if (study.is_grid || study.parameters.size() == 1)
+  {
+    std::string text;
+    for (std::size_t p = 0; p < study.parameters.size(); ++p)
+      text += (p == 0 ? "" : ", ") + study.parameters[p].name + " " +
+              study.parameters[p].values[study.runs[run].choice[p]].label;
+    return text;
+  }
   const std::string text = study.label(study.runs[run]);
   return text.empty() ? "base" : text;
 }

@@ -136,8 +136,15 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
       std::cout << (p == 0 ? ": " : ", ") << study.parameters[p].name << " "
                 << study.parameters[p].values[run.choice[p]].label;
     if (ended.code != 0)
+    {
+      // What a quiet run says stands in its result.
+      const std::string said = last_line(commands[ended.command].log);
       std::cout << ": exit code " << ended.code << ": "
-                << last_line(commands[ended.command].log);
+                << (said.empty() ? read_outcome(run_folder(arguments, run),
+                                                study.quantities)
+                                       .reason
+                                 : said);
+    }
     std::cout << std::endl;
   };
   return run_processes(commands, n_processes, report);
@@ -145,10 +152,10 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
 
 /** Charts, and sections through those runs that have fields and no picture of
     them yet, as PNG files. @return what went wrong, in words. */
-std::string draw_all(const StudyArguments &arguments, const StudyFile &study,
-                     const std::vector<Chart> &charts,
-                     std::vector<StudyOutcome> &outcomes)
+std::string draw_all(const StudyArguments &arguments,
+                     const std::vector<Chart> &charts, StudyResults &results)
 {
+  const StudyFile &study = results.study;
   nlohmann::ordered_json drawings = nlohmann::ordered_json::array();
   for (const Chart &chart : charts)
     drawings.push_back(to_json(chart));
@@ -159,16 +166,15 @@ std::string draw_all(const StudyArguments &arguments, const StudyFile &study,
     picture.folder = run_folder(arguments, study.runs[run]);
     picture.field = study.picture_field;
     picture.times = study.picture_times;
-    const std::string label = study.label(study.runs[run]);
-    picture.title = study.title + (label.empty() ? "" : ": " + label);
+    picture.title = study.title + ": " + results.label(run);
     const std::string fields = picture.folder + "/sabot.pvd";
-    if (!study.has_pictures || outcomes[run].status == "missing" ||
+    if (!study.has_pictures || results.outcomes[run].status == "missing" ||
         !fs::exists(fields))
       continue;
     // Other settings make another file.
     picture.file = picture.folder + "/section-" +
                    sha256(section_of(picture).dump()).substr(0, 8) + ".png";
-    outcomes[run].picture = picture.file;
+    results.outcomes[run].picture = picture.file;
     if (seen.insert(picture.file).second &&
         (!fs::exists(picture.file) ||
          fs::last_write_time(picture.file) < fs::last_write_time(fields)))
@@ -211,7 +217,7 @@ ExitCode run_study(const StudyArguments &arguments)
   write_csv(results, arguments.folder + "/study.csv");
   write_hdf5(results, arguments.folder + "/study.h5");
   const std::string problem =
-      all_started ? draw_all(arguments, study, charts, results.outcomes) : "";
+      all_started ? draw_all(arguments, charts, results) : "";
   write_report(results, charts, arguments.folder + "/report.html");
   if (!problem.empty())
     std::cerr << "warning: " << problem << std::endl;

@@ -83,6 +83,10 @@ Chart history_chart(const StudyResults &results, const std::size_t q,
     }
     Chart::Series series;
     series.label = results.label(run);
+    if (!varied.empty() && series.label == "base")
+      for (const StudyParameter &parameter : results.study.parameters)
+        if (parameter.name == varied)
+          series.label = "base: " + varied + " " + parameter.values[0].label;
     for (std::size_t row = 0; row < table.n_rows(); ++row)
     {
       series.x.push_back(x_factor * table.values[n_columns * row + x_column]);

@@ -69,7 +69,8 @@ struct StudyResults
 
   /** Relative to the reference. */
   double error(const std::size_t run, const std::size_t quantity) const;
-  /** What sets a run apart from the base, or "base". */
+  /** The values of a run's parameters; where one is varied at a time, those
+      that set it apart from the base, or "base". */
   std::string label(const std::size_t run) const;
   std::string unit(const std::size_t quantity) const;
   std::vector<Chart> charts() const;

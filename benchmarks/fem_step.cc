@@ -1,0 +1,92 @@
+// CPU time of the force loop of a FEM block, per cell-step:
+// build/release/benchmark_fem_step; see doc/performance.md
+#include "sabot/verification/world.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <benchmark/benchmark.h>
+
+namespace
+{
+using namespace sabot;
+
+std::shared_ptr<Material> johnson_cook()
+{
+  JohnsonCookParameters p;
+  p.A = 324e6;
+  p.B = 114e6;
+  p.n = 0.42;
+  p.C = 0.002;
+  p.m = 1.34;
+  p.melt_temperature = 925.;
+  p.specific_heat = 896.;
+  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33},
+                                       p);
+}
+
+/** A block that is compressed at @p rate [1/s], slowly enough for the cells to
+    keep their shape over all repetitions. */
+void step(benchmark::State &state, const FemOptions &options, const double rate,
+          const bool plastic)
+{
+  const double n = state.range(0), h = 1e-3;
+  World world;
+  BoxSpecification box;
+  box.size = {{n * h, n * h, n * h}};
+  box.cell_size = h;
+  world.bodies.push_back(
+      std::make_unique<FemBody>("block", 0, make_graded_box(box),
+                                plastic ? johnson_cook() : elastic(), options));
+  world.distribute();
+  Body &body = *world.bodies[0];
+  NodalState &nodes = body.nodes();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    nodes.velocity[i] = vec(-rate * nodes.reference_position[i][0], 0., 0.);
+  world.integrator.initialize();
+  constexpr double dt = 5e-8;
+  // To and fro, so that any number of repetitions may be asked for.
+  int count = 0;
+  for (auto _ : state)
+  {
+    if (++count % 400 == 0)
+      for (Vec &v : nodes.velocity)
+        v = -1. * v;
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
+      nodes.position[i] += dt * nodes.velocity[i];
+    body.compute_forces(0., dt);
+  }
+  state.counters["items"] = body.n_items();
+}
+
+void elastic_viscous(benchmark::State &state)
+{
+  step(state, FemOptions(), 1e4, false);
+}
+void johnson_cook_viscous(benchmark::State &state)
+{
+  step(state, FemOptions(), 1e4, true);
+}
+void johnson_cook_stiffness(benchmark::State &state)
+{
+  FemOptions options;
+  options.hourglass = FemOptions::Hourglass::stiffness;
+  step(state, options, 1e4, true);
+}
+void johnson_cook_b_bar(benchmark::State &state)
+{
+  FemOptions options;
+  options.integration = FemOptions::Integration::b_bar;
+  step(state, options, 1e4, true);
+}
+BENCHMARK(elastic_viscous)->Arg(22);
+BENCHMARK(johnson_cook_viscous)->Arg(22)->Arg(47);
+BENCHMARK(johnson_cook_stiffness)->Arg(22);
+BENCHMARK(johnson_cook_b_bar)->Arg(22);
+} // namespace
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
