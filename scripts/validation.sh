@@ -43,7 +43,7 @@ for study in "${studies[@]}"; do
   echo "== $study"
   # Exit code 2: a run went wrong, which the study records.
   "$root/build/release/sabot" study "$root/prm/studies/$study.prm" \
-    -o "$folder/$study" ${settings[@]+"${settings[@]}"} || {
+    -o "$folder/$study" --runs "$folder/runs" ${settings[@]+"${settings[@]}"} || {
     last=$?
     [ $last = 2 ] || exit $last
     code=2

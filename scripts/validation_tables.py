@@ -3,8 +3,8 @@
 
 scripts/validation_tables.py DIR [--figures FOLDER]
 
-DIR holds one folder per study, as `sabot study prm/studies/NAME.prm -o DIR/NAME`
-leaves them. --figures copies charts there and draws sections at four times.
+DIR holds one folder per study, as `sabot study prm/studies/NAME.prm -o DIR/NAME
+--runs DIR/runs` leaves them. --figures copies charts there and draws sections at four times.
 """
 import argparse
 import csv
@@ -32,6 +32,7 @@ ORDER = ("spacing", "friction", "failure-strain", "zone", "projectile",
 class Study:
     def __init__(self, folder, name):
         self.folder, self.name = os.path.join(folder, name), name
+        self.runs = os.path.join(folder, "runs")
         with open(os.path.join(self.folder, "study.csv"), newline="") as file:
             self.rows = list(csv.DictReader(file))
         head = list(self.rows[0])
@@ -51,7 +52,7 @@ class Study:
         return None
 
     def result(self, row):
-        path = os.path.join(self.folder, "runs", row["run"], "result.json")
+        path = os.path.join(self.runs, row["run"], "result.json")
         if not os.path.exists(path):
             return {}
         with open(path) as file:
@@ -73,7 +74,8 @@ def number(text, pattern="%.1f", factor=1.):
 def print_study(study):
     print("### %s\n" % study.name)
     print("    build/release/sabot study prm/studies/%s.prm -o "
-          "results/validation/%s\n" % (study.name, study.name))
+          "results/validation/%s --runs results/validation/runs\n"
+          % (study.name, study.name))
     has_speed = "residual velocity [m/s]" in study.quantities
     has_paper = any((p, row[p]) in PAPER for row in study.rows
                     for p in study.parameters)
@@ -207,7 +209,7 @@ def copy_figures(studies, folder):
                 if r["method"] == row["method"]):
             subprocess.run(
                 [os.path.join(ROOT, "build/release/sabot"), "picture",
-                 os.path.join(studies["spacing"].folder, "runs", row["run"]),
+                 os.path.join(studies["spacing"].runs, row["run"]),
                  "--time", "10 us, 30 us, 60 us, 100 us", "-o",
                  os.path.join(folder, "section-%s.png" % method), "--title",
                  "%s, %s" % (row["method"], row["spacing"])],

@@ -227,6 +227,9 @@ int main(int argc, char **argv)
       ->allow_extra_args(false);
   study->add_option("-o,--output", arguments.study.folder, "Folder")
       ->default_val("results-study");
+  study->add_option("--runs", arguments.study.runs,
+                    "Folder of the runs, which several studies may share "
+                    "(default: runs in the study's folder)");
   study->add_option("--processes", arguments.study.n_processes,
                     "Runs at the same time; 0: as the study file says");
   study->add_flag("--retry", arguments.study.retry, "Run again what failed");

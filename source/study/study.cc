@@ -31,7 +31,9 @@ std::string last_line(const std::string &file)
 
 std::string run_folder(const StudyArguments &arguments, const StudyRun &run)
 {
-  return arguments.folder + "/runs/" + run.key;
+  return (arguments.runs.empty() ? arguments.folder + "/runs"
+                                 : arguments.runs) +
+         "/" + run.key;
 }
 
 Command command_for(const StudyFile &study, const StudyRun &run,
@@ -195,7 +197,7 @@ ExitCode run_study(const StudyArguments &arguments)
     list_runs(arguments, study);
     return ExitCode::done;
   }
-  make_folder(arguments.folder + "/runs");
+  make_folder(arguments.folder);
   const bool all_started = complete_runs(arguments, study);
 
   std::vector<StudyOutcome> outcomes;

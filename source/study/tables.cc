@@ -36,7 +36,7 @@ void write_csv(const StudyResults &results, const std::string &file)
   const std::vector<std::string> parts = energy_parts(results);
   for (const std::string &part : parts)
     csv << "," << field("energy " + part + " [J]");
-  csv << ",zone,reason\n";
+  csv << ",zone verdict,reason\n";
   const auto number = [&](const double value)
   {
     csv << ",";

@@ -492,6 +492,12 @@ class Scenes(unittest.TestCase):
         for name, when in runs.items():
             self.assertEqual(when, os.path.getmtime(
                 os.path.join(out, "runs", name, "result.json")))
+        # Another study may share the runs.
+        done = sabot("study", study, "-o", out + "-2", "--runs",
+                     os.path.join(out, "runs"), "--set", "Pictures=false")
+        self.assertIn("4 of them kept", done.stdout)
+        self.assertEqual(os.listdir(os.path.join(out + "-2", "charts")).count(
+            "drawings.json"), 1)
         for override, expected in (
                 ("Parameters/spacing/Entries=Bodies/blok/Nodal spacing",
                  "belongs to Bodies/block"),

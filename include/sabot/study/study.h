@@ -11,6 +11,7 @@ namespace sabot
 struct StudyArguments
 {
   std::string file, folder;
+  std::string runs; // folder of the runs; empty: FOLDER/runs
   std::vector<std::string> overrides;
   unsigned int n_processes = 0; // 0: as the study says
   bool retry = false;           // run again what failed
@@ -21,11 +22,12 @@ struct StudyArguments
 
 /**
  * Run what is missing of a study, each run as a process of its own in
- * FOLDER/runs/<key>, where the key is a hash of the program's version and the
- * run's expanded parameters; then write study.csv, study.h5, report.html and
- * charts/. Runs that are complete or failed are kept, interrupted ones
- * resumed; what another build made is named, or with @p renew run again. Must
- * be called before MPI is initialized. InputError, IOError.
+ * FOLDER/runs/<key> (or where @p runs says: studies may share runs), where the
+ * key is a hash of the program's version and the run's expanded parameters;
+ * then write study.csv, study.h5, report.html and charts/. Runs that are
+ * complete or failed are kept, interrupted ones resumed; what another build
+ * made is named, or with @p renew run again. Must be called before MPI is
+ * initialized. InputError, IOError.
  */
 ExitCode run_study(const StudyArguments &arguments);
 } // namespace sabot
