@@ -153,14 +153,18 @@ HexMesh make_cylinder(const double radius, const double length,
 {
   // A core of n x n cells, bulged so that its corners lie at the core radius
   // and its edge middles a little further out than a square's, and rings.
-  const double core =
-      grading.core_radius > 0. ? grading.core_radius / radius : 0.55;
+  const double zone = grading.zone_radius / radius;
+  const double core = zone > 0.                  ? 0.55 * zone
+                      : grading.core_radius > 0. ? grading.core_radius / radius
+                                                 : 0.55;
   const unsigned int n =
       2 * std::max(1u, n_intervals(0.4 / 0.55 * core * radius * std::sqrt(2.),
                                    cell_size));
-  // Heights of the rings over the thickness of the shell.
+  // Heights of the rings over the thickness of the shell around the core, or
+  // around the zone.
   std::vector<double> heights;
-  const double shell = radius * (1. - core * 0.5 / 0.55);
+  const double shell =
+      radius * (zone > 0. ? 1. - zone : 1. - core * 0.5 / 0.55);
   if (grading.growth_ratio > 1.)
     for (const double size :
          growing_sizes(shell, cell_size, grading.coarsest_cell_size,
@@ -210,15 +214,33 @@ HexMesh make_cylinder(const double radius, const double length,
     inner.push_back(core_index(0, n - j));
   const unsigned int n_rim = inner.size();
   std::vector<unsigned int> last = inner;
-  for (const double f : heights)
+  // Rings between the core and a circle, or beyond the zone's circle.
+  struct Ring
   {
+    double f, circle;
+    bool beyond;
+  };
+  std::vector<Ring> rings;
+  if (zone > 0.)
+  {
+    const unsigned int n_inner = n_intervals(0.5 * zone * radius, cell_size);
+    for (unsigned int ring = 1; ring <= n_inner; ++ring)
+      rings.push_back({double(ring) / n_inner, zone, false});
+  }
+  for (const double f : heights)
+    rings.push_back({f, 1., zone > 0.});
+  for (const Ring &ring : rings)
+  {
+    const double f = ring.f;
     std::vector<unsigned int> next(n_rim);
     for (unsigned int a = 0; a < n_rim; ++a)
     {
       const double angle = pi * (-0.75 + 2. * a / n_rim);
       const dealii::Point<2> rim(std::cos(angle), std::sin(angle));
       next[a] = points.size();
-      points.push_back(points[inner[a]] * (1. - f) + rim * f);
+      points.push_back(ring.beyond ? rim * (zone * (1. - f) + f)
+                                   : points[inner[a]] * (1. - f) +
+                                         rim * (ring.circle * f));
     }
     for (unsigned int a = 0; a < n_rim; ++a)
     {

@@ -18,11 +18,19 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
                              const std::array<double, 3> &size,
                              const double nodal_spacing)
 {
+  return make_box_cloud(centre, size,
+                        {{nodal_spacing, nodal_spacing, nodal_spacing}});
+}
+
+ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
+                             const std::array<double, 3> &size,
+                             const std::array<double, 3> &nodal_spacing)
+{
   ParticleCloud cloud;
   std::array<unsigned int, 3> n;
   for (unsigned int d = 0; d < 3; ++d)
   {
-    n[d] = n_intervals(size[d], nodal_spacing);
+    n[d] = n_intervals(size[d], nodal_spacing[d]);
     cloud.spacing[d] = size[d] / n[d];
   }
 
@@ -47,14 +55,14 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
   {
     std::array<double, 3> x;
     double volume = 1.;
-    std::uint8_t faces = 0;
+    std::uint32_t faces = 0;
     for (unsigned int d = 0; d < 3; ++d)
     {
       const unsigned int i = lattice[p][d];
       x[d] = centre[d] - 0.5 * size[d] + size[d] * i / n[d];
       const bool low = i == 0, high = i == n[d];
       volume *= cloud.spacing[d] * (low || high ? 0.5 : 1.);
-      faces |= (low ? 1 : 0) << (2 * d) | (high ? 1 : 0) << (2 * d + 1);
+      faces |= (low ? 1u : 0u) << (2 * d) | (high ? 1u : 0u) << (2 * d + 1);
     }
     cloud.position.push_back(x);
     cloud.volume.push_back(volume);

@@ -84,8 +84,11 @@ std::vector<BodyFacts> find_body_facts(Scene &scene)
                  : never;
     if (f.failure_strain >= 1e10)
       f.failure_strain = never;
-    f.spacing = get_quantity(prm, f.is_spg ? "Nodal spacing" : "Cell size");
-    const bool is_from_file = get_or(prm, "Geometry", "") == "file";
+    const std::vector<double> spacing =
+        get_quantities(prm, f.is_spg ? "Nodal spacing" : "Cell size");
+    f.spacing = *std::min_element(spacing.begin(), spacing.end());
+    const bool is_from_file =
+        !f.is_spg && get_or(prm, "Geometry", "") == "file";
     f.is_clamped = !get_or(prm, "Clamped faces", "").empty();
     prm.leave_subsection();
     prm.leave_subsection();

@@ -395,9 +395,12 @@ Measures Run::quantities() const
     else if (q.type == Type::length)
       values.push_back({q.name, "m", extent(axis)});
     else if (q.type == Type::radius)
+    {
+      const int b = (axis + 1) % 3, c = (axis + 2) % 3;
       values.push_back(
           {q.name, "m",
-           0.25 * (extent((axis + 1) % 3) + extent((axis + 2) % 3))});
+           0.25 * (q.whole[b] * extent(b) + q.whole[c] * extent(c))});
+    }
     else
     {
       const std::string letter(1, "xyz"[axis]);

@@ -1,104 +1,15 @@
-#include "sabot/base/error.h"
-#include "sabot/base/nearest_name.h"
-#include "sabot/base/quantity.h"
+#include "sabot/simulation/scene_tools.h"
+
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
-#include "sabot/geometry/mesh_generator.h"
-#include "sabot/geometry/mesh_import.h"
-#include "sabot/geometry/partition.h"
-#include "sabot/geometry/round_bodies.h"
-#include "sabot/simulation/scene.h"
+#include "sabot/geometry/particle_cloud.h"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
+#include <cstdio>
+#include <map>
 
 namespace sabot
 {
-namespace
-{
-std::array<double, 3> get_vector(const dealii::ParameterHandler &prm,
-                                 const std::string &entry)
-{
-  const std::vector<double> v = get_quantities(prm, entry);
-  return {{v[0], v[1], v[2]}};
-}
-
-/** Enters Section/name of a ParameterHandler while it lives. */
-class Entered
-{
-public:
-  Entered(dealii::ParameterHandler &prm, const std::string &section,
-          const std::string &name)
-      : prm(prm)
-  {
-    prm.enter_subsection(section);
-    prm.enter_subsection(name);
-  }
-  ~Entered()
-  {
-    prm.leave_subsection();
-    prm.leave_subsection();
-  }
-
-private:
-  dealii::ParameterHandler &prm;
-};
-
-[[noreturn]] void unknown_name(const std::string &path, const std::string &what,
-                               const std::string &name,
-                               const std::vector<std::string> &allowed)
-{
-  if (name.empty())
-    throw InputError(path, "needs the name of a " + what);
-  std::string message = "no " + what + " is called \"" + name + "\"";
-  if (!allowed.empty())
-    message += "; did you mean \"" + nearest_name(name, allowed) + "\"?";
-  throw InputError(path, message);
-}
-
-const std::vector<std::string> box_faces = {"-x", "+x", "-y", "+y", "-z", "+z"};
-
-/** Numbers of the named faces (or axes) among the allowed ones. */
-std::vector<unsigned int> face_ids(const std::string &path,
-                                   const std::string &text,
-                                   const std::vector<std::string> &allowed)
-{
-  std::vector<unsigned int> ids;
-  for (const std::string &face : split_names(text))
-  {
-    const auto found = std::find(allowed.begin(), allowed.end(), face);
-    if (found == allowed.end())
-    {
-      std::string all;
-      for (const std::string &a : allowed)
-        all += (all.empty() ? "" : ", ") + a;
-      throw InputError(path, "\"" + face + "\" is not a face; allowed: " + all);
-    }
-    ids.push_back(found - allowed.begin());
-  }
-  return ids;
-}
-/** A file that an entry names, looked up in the folder of the parameter file
-    that sets it (of the scene, for an override). */
-std::string beside(const ParameterFile &file, const std::string &path,
-                   const std::string &name)
-{
-  if (name.empty())
-    throw InputError(path, "needs the name of a mesh file");
-  if (name[0] == '/')
-    return name;
-  const std::string origin = file.origin(path);
-  const std::string from =
-      origin.compare(0, 5, "--set") == 0 ? file.file_name : origin;
-  const std::size_t slash = from.find_last_of('/');
-  const std::string relative =
-      slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
-  return std::filesystem::absolute(relative).string();
-}
-} // namespace
-
 Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
     : file(file), communicator(communicator)
 {
@@ -140,33 +51,162 @@ void Scene::build_materials()
   }
 }
 
-/** A box cut out of a FEM body for particles. */
-struct Scene::Carving
+std::vector<Scene::Carving>
+Scene::find_carvings(const std::vector<std::string> &names)
 {
-  std::string body, zone;
-  std::array<double, 3> centre, size;
-};
-
-void Scene::build_bodies()
-{
-  const std::vector<std::string> names = split_names(prm.get("List of bodies"));
   std::vector<Carving> carvings;
   for (const std::string &name : names)
   {
+    const std::string path = "Bodies/" + name;
     const Entered entered(prm, "Bodies", name);
     if (prm.get("Discretization") != "SPG" || prm.get("Carve from").empty())
       continue;
     const std::string from = prm.get("Carve from");
     if (std::find(names.begin(), names.end(), from) == names.end() ||
         from == name)
-      unknown_name("Bodies/" + name + "/Carve from", "body", from, names);
+      unknown_name(path + "/Carve from", "body", from, names);
     for (const Carving &other : carvings)
       if (other.body == from)
-        throw InputError("Bodies/" + name + "/Carve from",
+        throw InputError(path + "/Carve from",
                          "body \"" + from + "\" already has the zone \"" +
                              other.zone + "\"; one zone per body");
-    carvings.push_back(
-        {from, name, get_vector(prm, "Centre"), get_vector(prm, "Size")});
+    if (file.value("Bodies/" + from + "/Discretization", "FEM") != "FEM")
+      throw InputError(path + "/Carve from",
+                       "body \"" + from +
+                           "\" is not of finite elements; a zone can only be "
+                           "carved from a FEM body");
+    Carving carving;
+    carving.body = from;
+    carving.zone = name;
+    carving.shape.centre = get_vector(prm, "Centre");
+    const std::string geometry = prm.get("Geometry");
+    if (geometry == "box")
+      carving.shape.size = get_vector(prm, "Size");
+    else if (geometry == "cylinder")
+    {
+      carving.shape.axis = prm.get("Axis")[0] - 'x';
+      carving.shape.size.fill(2. * get_quantity(prm, "Radius"));
+      carving.shape.size[carving.shape.axis] = get_quantity(prm, "Length");
+      if (prm.get("Sector") != "full")
+        throw InputError(path + "/Sector",
+                         "has no effect: the zone has the cells of the body "
+                         "that it is carved from; remove the entry");
+    }
+    else
+      throw InputError(path + "/Geometry",
+                       "is " + geometry +
+                           "; a zone that is carved from a body "
+                           "is a box or a cylinder");
+    carving.follows_mesh =
+        geometry != "box" ||
+        file.value("Bodies/" + from + "/Geometry", "box") != "box";
+    carvings.push_back(carving);
+  }
+  return carvings;
+}
+
+void Scene::follow_spacing(const std::string &path, const double spacing)
+{
+  // Rough, as the cells of a file have no one size.
+  constexpr double tolerance = 0.1;
+  const std::string entry = path + "/Nodal spacing";
+  char value[40];
+  std::snprintf(value, sizeof(value), "%.10g mm", 1e3 * spacing);
+  if (!file.value(entry, "").empty() &&
+      std::abs(get_quantities(prm, "Nodal spacing")[0] / spacing - 1.) >
+          tolerance)
+    throw InputError(entry, "is " + prm.get("Nodal spacing") +
+                                ", but the particles are the nodes of cells "
+                                "of " +
+                                value + "; set that or remove the entry");
+  prm.set("Nodal spacing", std::string(value)); // for the expanded parameters
+}
+
+std::unique_ptr<Body>
+Scene::make_particles(const std::string &name,
+                      std::shared_ptr<const Material> material,
+                      BodyMesh *const zone)
+{
+  const std::string path = "Bodies/" + name;
+  const std::string geometry = prm.get("Geometry");
+  std::vector<double> spacing = get_quantities(prm, "Nodal spacing");
+  if (spacing.size() == 2 ||
+      (spacing.size() == 3 && (zone != nullptr || geometry != "box")))
+    throw InputError(path + "/Nodal spacing",
+                     "has " + std::to_string(spacing.size()) +
+                         " values; give one, or three for a box with a lattice "
+                         "of its own");
+  std::vector<std::string> faces = box_faces;
+  ParticleCloud cloud;
+  if (zone != nullptr)
+  {
+    faces = zone->faces;
+    cloud = make_mesh_cloud(zone->mesh);
+  }
+  else if (geometry == "box")
+  {
+    if (spacing.size() == 1)
+      spacing = {spacing[0], spacing[0], spacing[0]};
+    cloud = make_box_cloud(get_vector(prm, "Centre"), get_vector(prm, "Size"),
+                           {{spacing[0], spacing[1], spacing[2]}});
+  }
+  else
+  {
+    BodyMesh mesh = make_mesh(path, spacing[0], nullptr);
+    faces = mesh.faces;
+    cloud = make_mesh_cloud(mesh.mesh);
+    if (geometry == "file")
+      follow_spacing(path, cloud.spacing[0]);
+  }
+  SpgOptions options = SpgOptions::parse(prm, path);
+  options.initial_velocity = get_vector(prm, "Initial velocity");
+  const auto bits = [&](const char *const entry)
+  {
+    std::uint32_t result = 0;
+    for (const unsigned int face :
+         face_ids(path + "/" + entry, prm.get(entry), faces))
+    {
+      if (face >= ParticleCloud::n_faces)
+        throw InputError(path + "/" + entry,
+                         "names the boundary id " + std::to_string(face) +
+                             "; faces of particles need ids below " +
+                             std::to_string(ParticleCloud::n_faces));
+      result |= 1u << face;
+    }
+    return result;
+  };
+  options.symmetry_faces = bits("Symmetry faces");
+  options.clamped_faces = bits("Clamped faces");
+  is_free =
+      is_free && options.symmetry_faces == 0 && options.clamped_faces == 0;
+  return std::make_unique<SpgBody>(name, bodies.size(), std::move(cloud),
+                                   std::move(material), options);
+}
+
+void Scene::build_bodies()
+{
+  const std::vector<std::string> names = split_names(prm.get("List of bodies"));
+  const std::vector<Carving> carvings = find_carvings(names);
+  // Meshes of bodies whose cells give way to particles, by body and by zone.
+  std::map<std::string, BodyMesh> rest, zone_meshes;
+  for (const Carving &c : carvings)
+  {
+    if (!c.follows_mesh)
+      continue;
+    double cell_size = 0.;
+    {
+      const Entered entered(prm, "Bodies", c.body);
+      cell_size = get_quantity(prm, "Cell size");
+      BodyMesh whole = make_mesh("Bodies/" + c.body, cell_size, &c);
+      CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
+                               "Bodies/" + c.zone + "/Centre");
+      rest[c.body] = {std::move(parts.rest), whole.faces};
+      zone_meshes[c.zone] = {std::move(parts.zone), whole.faces};
+      if (prm.get("Geometry") == "file")
+        cell_size = make_mesh_cloud(zone_meshes[c.zone].mesh).spacing[0];
+    }
+    const Entered entered(prm, "Bodies", c.zone);
+    follow_spacing("Bodies/" + c.zone, cell_size);
   }
 
   for (const std::string &name : names)
@@ -179,135 +219,27 @@ void Scene::build_bodies()
     const auto material = material_by_name.find(prm.get("Material"));
     if (material == material_by_name.end())
       unknown_name(path + "/Material", "material", prm.get("Material"), known);
-    const auto centre = get_vector(prm, "Centre");
-
     if (prm.get("Discretization") == "SPG")
     {
-      SpgOptions options = SpgOptions::parse(prm, path);
-      for (const unsigned int face : face_ids(
-               path + "/Symmetry faces", prm.get("Symmetry faces"), box_faces))
-        options.symmetry_faces |= 1 << face;
-      is_free = is_free && options.symmetry_faces == 0;
-      options.initial_velocity = get_vector(prm, "Initial velocity");
-      bodies.push_back(std::make_unique<SpgBody>(
-          name, bodies.size(),
-          make_box_cloud(centre, get_vector(prm, "Size"),
-                         get_quantity(prm, "Nodal spacing")),
-          material->second, options));
+      const auto zone = zone_meshes.find(name);
+      bodies.push_back(
+          make_particles(name, material->second,
+                         zone == zone_meshes.end() ? nullptr : &zone->second));
       continue;
     }
 
-    const bool is_rigid = prm.get("Discretization") == "rigid";
-    const double cell_size = get_quantity(prm, "Cell size");
     const auto carving =
         std::find_if(carvings.begin(), carvings.end(),
                      [&](const Carving &c) { return c.body == name; });
-    HexMesh mesh;
-    std::vector<std::string> faces = box_faces;
-    if (carving != carvings.end() && (prm.get("Geometry") != "box" || is_rigid))
-      throw InputError("Bodies/" + carving->zone + "/Carve from",
-                       "a zone can only be carved from a FEM box");
-    if (prm.get("Geometry") == "cylinder")
-    {
-      const unsigned int axis = prm.get("Axis")[0] - 'x';
-      const std::string sector = prm.get("Sector");
-      const unsigned int n_cuts = sector == "full"   ? 0
-                                  : sector == "half" ? 1
-                                                     : 2;
-      faces = {"lower", "upper", "side"};
-      for (unsigned int cut = 0; cut < n_cuts; ++cut)
-        faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
-      CylinderGrading grading;
-      grading.core_radius = get_quantity(prm, "Core radius");
-      grading.growth_ratio = get_quantity(prm, "Growth ratio");
-      grading.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
-      const double radius = get_quantity(prm, "Radius");
-      if (grading.core_radius > 0.9 * radius)
-        throw InputError(path + "/Core radius",
-                         "leaves no room for rings; at most 0.9 of the radius");
-      mesh = make_cylinder(radius, get_quantity(prm, "Length"), axis, centre,
-                           cell_size, n_cuts, grading);
-    }
-    else if (prm.get("Geometry") == "sphere")
-    {
-      faces = {"surface"};
-      mesh = make_sphere(get_quantity(prm, "Radius"), centre, cell_size);
-    }
-    else if (prm.get("Geometry") == "projectile")
-    {
-      faces = {"end", "side"};
-      ProjectileSpecification projectile;
-      projectile.radius = get_quantity(prm, "Radius");
-      projectile.shaft_length = get_quantity(prm, "Length");
-      projectile.nose_length = get_quantity(prm, "Nose length");
-      const std::string nose = prm.get("Nose"), axis = prm.get("Axis");
-      projectile.nose = nose == "ogive"     ? Nose::ogive
-                        : nose == "conical" ? Nose::conical
-                                            : Nose::spherical;
-      if (projectile.nose == Nose::ogive &&
-          projectile.nose_length < projectile.radius)
-        throw InputError(path + "/Nose length",
-                         "a tangent ogive is at least as long as its radius; "
-                         "use a spherical nose or a longer one");
-      projectile.axis = axis.back() - 'x';
-      projectile.towards_positive = axis[0] != '-';
-      projectile.centre = centre;
-      projectile.cell_size = cell_size;
-      mesh = make_projectile(projectile);
-    }
-    else if (prm.get("Geometry") == "file")
-    {
-      const std::string resolved =
-          beside(file, path + "/Mesh file", prm.get("Mesh file"));
-      prm.set("Mesh file", resolved); // for the expanded parameters
-      mesh =
-          read_mesh(resolved, get_quantity(prm, "Mesh unit"), centre,
-                    prm.get_integer("Mesh material id"), path + "/Mesh file");
-      faces.clear();
-      for (const unsigned int id : mesh.boundary_id)
-        while (faces.size() <= id)
-          faces.push_back(std::to_string(faces.size()));
-    }
-    else
-    {
-      BoxSpecification box;
-      box.centre = centre;
-      box.size = get_vector(prm, "Size");
-      box.cell_size = cell_size;
-      if (!is_rigid)
-      {
-        box.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
-        box.growth_ratio = get_quantity(prm, "Growth ratio");
-      }
-      if (carving != carvings.end())
-      {
-        box.has_zone = true;
-        box.zone_centre = carving->centre;
-        box.zone_size = carving->size;
-        box.zone_path = "Bodies/" + carving->zone;
-      }
-      const auto refined = is_rigid ? std::array<double, 3>{}
-                                    : get_vector(prm, "Refined zone size");
-      if (refined[0] > 0. && refined[1] > 0. && refined[2] > 0.)
-      {
-        if (box.has_zone)
-          throw InputError(path + "/Refined zone size",
-                           "a body has one zone, and \"" + carving->zone +
-                               "\" is carved from this one already");
-        box.has_zone = true;
-        box.zone_is_cut = false;
-        box.zone_centre = get_vector(prm, "Refined zone centre");
-        box.zone_size = refined;
-        box.zone_path = path;
-      }
-      mesh = make_graded_box(box);
-    }
-    const MeshQuality quality = measure_quality(mesh);
-    notes.push_back("mesh of " + name + ": " + quality.text());
-    if (quality.scaled_jacobian <= 0.)
-      throw InputError(path + "/Geometry",
-                       "the mesh has a cell that is inside out or flat: " +
-                           quality.text());
+    const auto carved = rest.find(name);
+    BodyMesh made =
+        carved != rest.end()
+            ? std::move(carved->second)
+            : make_mesh(path, get_quantity(prm, "Cell size"),
+                        carving == carvings.end() ? nullptr : &*carving);
+    HexMesh &mesh = made.mesh;
+    const std::vector<std::string> &faces = made.faces;
+    const bool is_rigid = prm.get("Discretization") == "rigid";
     if (is_rigid)
     {
       RigidOptions options = RigidOptions::parse(prm);
@@ -336,6 +268,35 @@ void Scene::build_bodies()
     bodies.push_back(std::make_unique<FemBody>(
         name, bodies.size(), std::move(mesh), material->second, options));
   }
+  for (const Carving &c : carvings)
+    record_zone(c);
+}
+
+void Scene::record_zone(const Carving &carving)
+{
+  CarvedZone zone;
+  zone.zone = body_index("Bodies", carving.zone);
+  zone.host = body_index("Bodies", carving.body);
+  zone.shape = carving.shape;
+  zone.host_low.fill(1e300);
+  zone.host_high.fill(-1e300);
+  for (const int b : {zone.zone, zone.host})
+    for (const auto &x : bodies[b]->partition_points())
+      for (int d = 0; d < 3; ++d)
+      {
+        zone.host_low[d] = std::min(zone.host_low[d], x[d]);
+        zone.host_high[d] = std::max(zone.host_high[d], x[d]);
+      }
+  const Entered entered(prm, "Bodies", carving.zone);
+  const std::vector<double> spacing = get_quantities(prm, "Nodal spacing");
+  for (int d = 0; d < 3; ++d)
+  {
+    zone.spacing[d] = spacing[spacing.size() == 3 ? d : 0];
+    if (!carving.follows_mesh) // the nearest that divides the edge
+      zone.spacing[d] =
+          zone.shape.size[d] / n_intervals(zone.shape.size[d], zone.spacing[d]);
+  }
+  zones.push_back(zone);
 }
 
 int Scene::body_index(const std::string &path,

@@ -220,6 +220,12 @@ void Scene::build_quantities()
                        "velocity, points along x, y or z");
     quantity.direction = (1. / norm(direction)) * direction;
     quantity.origin = get_quantity(prm, "Origin");
+    const std::string planes = file.value(
+        "Bodies/" + bodies[quantity.body]->name + "/Symmetry faces", "");
+    for (const std::string &plane : split_names(planes))
+      for (int d = 0; d < 3; ++d)
+        if (plane.size() == 2 && plane[1] == "xyz"[d])
+          quantity.whole[d] = 2.;
     quantities.push_back(quantity);
     prm.leave_subsection();
     prm.leave_subsection();

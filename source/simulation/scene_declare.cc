@@ -128,13 +128,11 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
                     Patterns::Selection("FEM|SPG|rigid"),
                     "FEM: hexahedra; SPG: smoothed-particle-Galerkin "
                     "particles; rigid: hexahedra that do not deform.");
-  prm.declare_entry(
-      "Geometry", "box",
-      Patterns::Selection(discretization == "SPG"
-                              ? "box"
-                              : "box|cylinder|sphere|projectile|file"),
-      "Shape of the body; projectile: a cylinder with a conical or ogival "
-      "nose; file: a mesh of hexahedra.");
+  prm.declare_entry("Geometry", "box",
+                    Patterns::Selection("box|cylinder|sphere|projectile|file"),
+                    "Shape of the body; projectile: a cylinder with a conical "
+                    "or ogival nose; file: a mesh of hexahedra. The entries of "
+                    "the shapes are the same for FEM, SPG and rigid bodies.");
   prm.declare_entry("Material", "", Patterns::Anything(),
                     "Name of a subsection of Materials.");
   const QuantityPattern vector3(Dimension::length, 3, 3, -1e3, 1e3);
@@ -160,12 +158,21 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
   if (discretization == "SPG")
   {
     prm.declare_entry("Nodal spacing", "1 mm",
-                      QuantityPattern(Dimension::length, 1e-9, 1e2),
-                      "Distance of neighbouring particles; the nearest value "
-                      "that divides each edge is used.");
+                      QuantityPattern(Dimension::length, 1, 3, 1e-9, 1e2),
+                      "Distance of neighbouring particles; of a box the "
+                      "nearest value that divides each edge, one for all or "
+                      "three, one per axis. In other shapes particles are the "
+                      "nodes of hexahedra with cells of this size.");
     prm.declare_entry("Carve from", "", Patterns::Anything(),
-                      "A FEM body whose cells inside this box give way to the "
-                      "particles. Add a tie to join the two.");
+                      "A FEM body whose cells inside this box or cylinder give "
+                      "way to the particles. A box in a box has a lattice of "
+                      "its own, around which the body is meshed; else the "
+                      "nodes of the cells become the particles. Add a tie to "
+                      "join the two.");
+    prm.declare_entry("Clamped faces", "", names,
+                      "Faces held fixed, among " + face_names(geometry) +
+                          "; in a zone with the cells of another body among "
+                          "that body's, as for symmetry faces.");
     SpgOptions::declare_parameters(prm);
   }
   else
@@ -280,7 +287,7 @@ void declare_quantity(ParameterHandler &prm)
       "velocity: of the body's centre of mass along the direction; "
       "penetration depth: how far the body reaches beyond the origin along "
       "the direction; length, radius: extent along the direction, half extent "
-      "across it.");
+      "across it, of the whole where planes of symmetry cut the body.");
   prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
   prm.declare_entry("Direction", "0, 0, 1",
                     QuantityPattern(Dimension::none, 3, 3, -1e3, 1e3),

@@ -1,7 +1,5 @@
 #include "sabot/simulation/zone_verdict.h"
 
-#include "sabot/base/quantity.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,10 +21,13 @@ using Point = std::array<double, 3>;
 struct Reach
 {
   double distance = nowhere;
+  double radius = 0.; // from the axis of a cylinder
   Point low{{nowhere, nowhere, nowhere}}, high{{-nowhere, -nowhere, -nowhere}};
 
   void add(const ZoneBox &box, const Point &x)
   {
+    if (box.axis >= 0)
+      radius = std::max(radius, box.radius_of(x));
     distance = std::min(distance, box.distance_from_tie(x));
     for (int d = 0; d < 3; ++d)
     {
@@ -36,10 +37,11 @@ struct Reach
   }
   void reduce(MPI_Comm communicator)
   {
-    double values[7] = {distance, low[0],   low[1],  low[2],
-                        -high[0], -high[1], -high[2]};
-    MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_MIN, communicator);
+    double values[8] = {distance, low[0],   low[1],   low[2],
+                        -high[0], -high[1], -high[2], -radius};
+    MPI_Allreduce(MPI_IN_PLACE, values, 8, MPI_DOUBLE, MPI_MIN, communicator);
     distance = values[0];
+    radius = -values[7];
     for (int d = 0; d < 3; ++d)
     {
       low[d] = values[1 + d];
@@ -69,6 +71,11 @@ std::pair<Point, Point> smallest_box(const ZoneBox &zone, const Reach &reach)
     // Nothing happened: a block of a few particles stays.
     double down = empty ? centre - gap : reach.low[d] - gap,
            up = empty ? centre + gap : reach.high[d] + gap;
+    if (zone.axis >= 0 && d != zone.axis)
+    {
+      down = centre - reach.radius - gap;
+      up = centre + reach.radius + gap;
+    }
     if (zone.tied_low[d] && zone.tied_high[d])
     {
       const double half = std::max(centre - down, up - centre);
@@ -90,6 +97,15 @@ double seconds_of(const Timers &timers, const std::string &name)
 }
 } // namespace
 
+double ZoneBox::radius_of(const Point &x) const
+{
+  double square = 0.;
+  for (int d = 0; d < 3; ++d)
+    if (d != axis)
+      square += std::pow(x[d] - 0.5 * (low[d] + high[d]), 2);
+  return std::sqrt(square);
+}
+
 double ZoneBox::distance_from_tie(const Point &x) const
 {
   double inside = nowhere, outside = 0.;
@@ -98,8 +114,11 @@ double ZoneBox::distance_from_tie(const Point &x) const
     {
       if (!(upper ? tied_high[d] : tied_low[d]))
         continue;
-      const double depth =
-          (upper ? high[d] - x[d] : x[d] - low[d]) / spacing[d];
+      const bool radial = axis >= 0 && d != axis;
+      const double depth = (radial  ? 0.5 * (high[d] - low[d]) - radius_of(x)
+                            : upper ? high[d] - x[d]
+                                    : x[d] - low[d]) /
+                           spacing[d];
       inside = std::min(inside, depth);
       outside = std::max(outside, -depth);
     }
@@ -108,52 +127,28 @@ double ZoneBox::distance_from_tie(const Point &x) const
 
 std::vector<ZoneBox> find_zones(const Scene &scene)
 {
-  // ParameterHandler's place in its tree is not part of its value.
-  auto &prm = const_cast<dealii::ParameterHandler &>(scene.prm);
-  const auto corners = [&](const std::string &body, Point &low, Point &high)
-  {
-    prm.enter_subsection("Bodies");
-    prm.enter_subsection(body);
-    const std::vector<double> centre = get_quantities(prm, "Centre"),
-                              size = get_quantities(prm, "Size");
-    prm.leave_subsection();
-    prm.leave_subsection();
-    for (int d = 0; d < 3; ++d)
-    {
-      low[d] = centre[d] - 0.5 * size[d];
-      high[d] = centre[d] + 0.5 * size[d];
-    }
-  };
   std::vector<ZoneBox> zones;
-  for (const auto &body : scene.bodies)
+  for (const CarvedZone &carved : scene.zones)
   {
-    prm.enter_subsection("Bodies");
-    prm.enter_subsection(body->name);
-    std::string from;
-    double spacing = 0.;
-    if (prm.get("Discretization") == "SPG")
-    {
-      from = prm.get("Carve from");
-      spacing = get_quantity(prm, "Nodal spacing");
-    }
-    prm.leave_subsection();
-    prm.leave_subsection();
-    if (from.empty())
-      continue;
     ZoneBox zone;
-    zone.zone = body->id;
-    zone.host = scene.body_index("Bodies/" + body->name, from);
-    Point host_low, host_high;
-    corners(body->name, zone.low, zone.high);
-    corners(from, host_low, host_high);
+    zone.zone = carved.zone;
+    zone.host = carved.host;
+    zone.axis = carved.shape.axis;
+    zone.spacing = carved.spacing;
+    bool side = false; // of a cylinder, which a sector may have cut
     for (int d = 0; d < 3; ++d)
     {
-      const double size = zone.high[d] - zone.low[d];
-      zone.spacing[d] = size / std::max(1., std::round(size / spacing));
+      zone.low[d] = carved.shape.centre[d] - 0.5 * carved.shape.size[d];
+      zone.high[d] = carved.shape.centre[d] + 0.5 * carved.shape.size[d];
       const double slack = 1e-3 * zone.spacing[d];
-      zone.tied_low[d] = zone.low[d] > host_low[d] + slack;
-      zone.tied_high[d] = zone.high[d] < host_high[d] - slack;
+      zone.tied_low[d] = zone.low[d] > carved.host_low[d] + slack;
+      zone.tied_high[d] = zone.high[d] < carved.host_high[d] - slack;
+      side =
+          side || (d != zone.axis && (zone.tied_low[d] || zone.tied_high[d]));
     }
+    if (zone.axis >= 0)
+      for (const int d : {(zone.axis + 1) % 3, (zone.axis + 2) % 3})
+        zone.tied_low[d] = zone.tied_high[d] = side;
     zones.push_back(zone);
   }
   return zones;
@@ -222,8 +217,13 @@ std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
     Reach both = plastic;
     if (bonds.distance < nowhere)
     {
-      both.add(zone, bonds.low);
-      both.add(zone, bonds.high);
+      both.distance = std::min(plastic.distance, bonds.distance);
+      both.radius = std::max(plastic.radius, bonds.radius);
+      for (int d = 0; d < 3; ++d)
+      {
+        both.low[d] = std::min(plastic.low[d], bonds.low[d]);
+        both.high[d] = std::max(plastic.high[d], bonds.high[d]);
+      }
     }
     // What a cell of the host next to the zone is like.
     const double cell_seconds =
@@ -246,6 +246,12 @@ std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
         box.n_particles *= std::round(box.size[d] / zone.spacing[d]) + 1.;
         n_cells *= box.size[d] / zone.spacing[d];
         n_cells_now *= (zone.high[d] - zone.low[d]) / zone.spacing[d];
+      }
+      if (zone.axis >= 0) // perhaps a sector of it: by volume
+      {
+        box.n_particles = verdict.n_particles * n_cells / n_cells_now;
+        n_cells = box.n_particles;
+        n_cells_now = verdict.n_particles;
       }
       box.seconds_saved =
           (verdict.n_particles - box.n_particles) * particle_seconds -

@@ -32,6 +32,9 @@ struct CylinderGrading
   double core_radius = 0.; // [m], of the square core's corners; 0: 0.55 r
   double growth_ratio = 1.;
   double coarsest_cell_size = 1e30; // [m], of the rings
+  /** [m] when positive, rings meet at this radius: the part inside has the mesh
+      of a cylinder of its own, outside of it the rings grow. */
+  double zone_radius = 0.;
 };
 
 /**
@@ -42,8 +45,8 @@ struct CylinderGrading
  * Boundary ids: 0 lower end, 1 upper end, 2 side. @p axis: 0, 1, 2.
  * @p n_cuts: 1 keeps the half where the coordinate after the axis is not less
  * than the centre's, 2 the quarter where the one after that is not, either; the
- * cut planes have the boundary ids 3 and 4. @p grading: a smaller core with
- * rings that grow outwards.
+ * cut planes have the boundary ids 3 and 4. @p grading: a smaller core, or an
+ * inner cylinder, with rings that grow outwards.
  */
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,

@@ -1,6 +1,9 @@
 #ifndef sabot_geometry_particle_cloud_h
 #define sabot_geometry_particle_cloud_h
 
+#include "sabot/geometry/hex_mesh.h"
+#include "sabot/kernels/vec.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -13,9 +16,20 @@ struct ParticleCloud
 {
   std::vector<std::array<double, 3>> position; // [m]
   std::vector<double> volume;                  // tributary, sums to the body
-  std::array<double, 3> spacing;               // per axis [m]
-  /** Faces of the box a particle lies on: bits 0..5 = -x,+x,-y,+y,-z,+z. */
-  std::vector<std::uint8_t> on_face;
+  /** Per axis [m]; the same mean along all axes where shape is given. */
+  std::array<double, 3> spacing;
+  /** Faces a particle lies on, a bit per boundary id below n_faces; of a box
+      bits 0..5 = -x,+x,-y,+y,-z,+z. */
+  std::vector<std::uint32_t> on_face;
+  static constexpr unsigned int n_faces = 32;
+  /** Axis across which the face of each boundary id is a plane, -1: none. */
+  std::vector<int> face_axis{0, 0, 1, 1, 2, 2};
+  /**
+   * Size and directions of the lattice around each particle [m]: the symmetric
+   * matrix S that maps the unit ball to the ellipsoid through the neighbours a
+   * cell away. Empty: diag(spacing) for all.
+   */
+  AlignedVector<Mat> shape;
 };
 
 /**
@@ -26,7 +40,22 @@ struct ParticleCloud
  */
 ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
                              const std::array<double, 3> &size,
+                             const std::array<double, 3> &nodal_spacing);
+ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
+                             const std::array<double, 3> &size,
                              const double nodal_spacing);
+
+/**
+ * Particles on the nodes of hexahedra. Volumes are the integrals of the nodes'
+ * trilinear functions (2x2x2 Gauss points, exact): they sum to the mesh's
+ * volume and have its centre of mass. With the edge vectors a, b, c of a cell
+ * (means of its four parallel edges) a particle's shape is
+ *   S^2 = mean over the cells around of a a^T + b b^T + c c^T,
+ * for which |S^-1 dX| counts lattice steps in any lattice of parallelepipeds,
+ * next to its faces, too: kernels of S times the support see as many
+ * neighbours there as in a cubic lattice.
+ */
+ParticleCloud make_mesh_cloud(const HexMesh &mesh);
 
 /** Number of intervals of about @p spacing in @p length, at least one. */
 unsigned int n_intervals(const double length, const double spacing);

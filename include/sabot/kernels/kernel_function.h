@@ -152,6 +152,14 @@ inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
     clamped.col(j) *= axes[j];
   return from_eigen(clamped);
 }
+
+/** The same for kernels that start as any matrix: h = h' @p initial. */
+inline Mat clamp_kernel(const Mat &h, const Mat &initial, const double low,
+                        const double high)
+{
+  const Mat stretch = h * inverse(initial);
+  return clamp_kernel(stretch, vec(1., 1., 1.), low, high) * initial;
+}
 } // namespace sabot
 
 #endif

@@ -4,6 +4,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
+#include "sabot/geometry/carving.h"
 #include "sabot/materials/material.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -30,6 +31,9 @@ struct QuantityOfInterest
   int body;
   Vec direction;      // unit
   double origin = 0.; // of the penetration depth, along the direction [m]
+  /** Extent of the whole over that of the part that is modelled, per axis: 2
+      across a plane of symmetry. */
+  std::array<double, 3> whole{{1., 1., 1.}};
 };
 
 /** When fields or histories are written. */
@@ -55,6 +59,15 @@ struct RunSettings
   unsigned int checkpoint_steps;
 };
 
+/** A part of a FEM body in whose place there are particles. */
+struct CarvedZone
+{
+  int zone, host;                            // bodies
+  ZoneShape shape;                           // may reach beyond the host
+  std::array<double, 3> spacing;             // of the particles [m]
+  std::array<double, 3> host_low, host_high; // bounds before carving [m]
+};
+
 /**
  * A scene file, read and checked: declared entries, then the objects built
  * from them. Construction throws InputError with file and line; it changes
@@ -75,6 +88,7 @@ public:
   std::vector<std::unique_ptr<Coupling>> couplings; // ties last
   std::vector<OutputSettings> outputs;
   std::vector<QuantityOfInterest> quantities;
+  std::vector<CarvedZone> zones;
   std::vector<std::string> warnings;
   std::vector<std::string> notes; // for `sabot check`, e.g. mesh quality
   /** True where nothing holds a body from outside, so that linear momentum
@@ -90,9 +104,24 @@ public:
 
 private:
   struct Carving;
+  struct BodyMesh;
   void read_settings();
   void build_materials();
   void build_bodies();
+  std::vector<Carving> find_carvings(const std::vector<std::string> &names);
+  /** Mesh of the body whose subsection is entered, around or with the cells of
+      the zone that is @p carving. */
+  BodyMesh make_mesh(const std::string &path, const double cell_size,
+                     const Carving *carving);
+  /** Enter the spacing of particles that are the nodes of a mesh; refuse
+     another one in the file. */
+  void follow_spacing(const std::string &path, const double spacing);
+  void record_zone(const Carving &carving);
+  /** The SPG body whose subsection is entered; @p zone: cells of another body
+      that it replaces. */
+  std::unique_ptr<Body> make_particles(const std::string &name,
+                                       std::shared_ptr<const Material> material,
+                                       BodyMesh *zone);
   void build_couplings();
   void build_outputs();
   void build_quantities();

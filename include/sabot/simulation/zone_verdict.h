@@ -10,13 +10,17 @@
 
 namespace sabot
 {
-/** A box of particles that replaces cells of a FEM body: where it lies and
-    which of its faces are inside that body, where the two are tied. */
+/** A box or cylinder of particles that replaces cells of a FEM body: where it
+    lies and which of its faces are inside that body, where the two are tied. */
 struct ZoneBox
 {
   int zone, host; // bodies
   std::array<double, 3> low, high, spacing;
   std::array<bool, 3> tied_low, tied_high;
+  int axis = -1; // of a cylinder with the bounds low, high; -1: a box
+
+  /** Distance of a point from the axis of a cylinder [m]. */
+  double radius_of(const std::array<double, 3> &x) const;
 
   /** Reference distance of a point to the nearest tied face in spacings;
       negative outside the zone. Huge where nothing is tied. */
@@ -35,7 +39,8 @@ struct ZoneVerdict
       broken bonds reached, huge where there were none; negative: cells so far
       outside the zone strained that much. */
   double plastic_distance, bond_distance;
-  /** Smallest box with the same centre line that leaves two spacings between
+  /** Smallest box, of a cylinder the bounds of the smallest cylinder, with the
+      same centre line that leaves two spacings between
       them and the tie, what it holds, and what it would have saved. */
   struct Box
   {

@@ -1,4 +1,5 @@
 #include "sabot/bodies/fem/fem_body.h"
+#include "sabot/geometry/boundary_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,32 +32,8 @@ Vec area_vector(const std::array<Vec, 4> &x)
 
 int FemBody::symmetry_axis(const unsigned int id) const
 {
-  // A face of the plane has all its area across the axis and its corners at
-  // the height of the first.
-  constexpr double tolerance = 1e-6;
-  int axis = -1;
-  double height = 0.;
-  bool plane = true;
-  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
-  {
-    if (mesh.boundary_id[f] != id)
-      continue;
-    const auto x = corners(mesh, f);
-    const Vec area = area_vector(x);
-    const double size = std::sqrt(norm(area));
-    if (axis < 0)
-    {
-      for (int d = 0; d < 3; ++d)
-        if (std::abs(area[d]) > (1. - tolerance) * norm(area))
-          axis = d;
-      if (axis >= 0)
-        height = x[0][axis];
-    }
-    for (int a = 0; a < 4; ++a)
-      plane = plane && axis >= 0 &&
-              std::abs(x[a][axis] - height) < tolerance * size;
-  }
-  if (axis < 0 || !plane)
+  const int axis = plane_axis(mesh, id);
+  if (axis < 0)
     throw InputError("Bodies/" + name + "/Symmetry faces",
                      "these faces do not lie in one plane across the x, y or z "
                      "axis; a symmetry plane must");

@@ -2,82 +2,171 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <unordered_map>
 
 namespace sabot
 {
+namespace
+{
+/** Points sorted into buckets of one reach, in units of a spacing per axis. */
+class Buckets
+{
+public:
+  Buckets(const std::vector<std::array<double, 3>> &points,
+          const std::array<double, 3> &spacing, const double reach)
+      : points(points), spacing(spacing), reach(reach)
+  {
+    std::array<double, 3> high{{-1e300, -1e300, -1e300}};
+    for (const auto &p : points)
+      for (int d = 0; d < 3; ++d)
+      {
+        low[d] = std::min(low[d], p[d] / spacing[d]);
+        high[d] = std::max(high[d], p[d] / spacing[d]);
+      }
+    for (int d = 0; d < 3; ++d)
+      n_buckets[d] = static_cast<std::size_t>((high[d] - low[d]) / reach) + 1;
+    contents.resize(n_buckets[0] * n_buckets[1] * n_buckets[2]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      contents[index(at(i, 0), at(i, 1), at(i, 2))].push_back(i);
+  }
+
+  /** Call @p visit for the other points in the buckets around point @p i. */
+  template <typename Visit>
+  void around(const GlobalIndex i, const Visit &visit) const
+  {
+    std::array<std::size_t, 3> first, last;
+    for (int d = 0; d < 3; ++d)
+    {
+      const std::size_t b = at(i, d);
+      first[d] = b > 0 ? b - 1 : 0;
+      last[d] = std::min(b + 1, n_buckets[d] - 1);
+    }
+    for (std::size_t z = first[2]; z <= last[2]; ++z)
+      for (std::size_t y = first[1]; y <= last[1]; ++y)
+        for (std::size_t x = first[0]; x <= last[0]; ++x)
+          for (const GlobalIndex j : contents[index(x, y, z)])
+            if (j != i)
+              visit(j);
+  }
+
+private:
+  std::size_t at(const std::size_t i, const int d) const
+  {
+    return std::min(
+        n_buckets[d] - 1,
+        static_cast<std::size_t>((points[i][d] / spacing[d] - low[d]) / reach));
+  }
+  std::size_t index(const std::size_t x, const std::size_t y,
+                    const std::size_t z) const
+  {
+    return x + n_buckets[0] * (y + n_buckets[1] * z);
+  }
+
+  const std::vector<std::array<double, 3>> &points;
+  const std::array<double, 3> spacing;
+  const double reach;
+  std::array<double, 3> low{{1e300, 1e300, 1e300}};
+  std::array<std::size_t, 3> n_buckets;
+  std::vector<std::vector<GlobalIndex>> contents;
+};
+
+[[noreturn]] void
+fail_coincident(const std::vector<std::array<double, 3>> &points,
+                const GlobalIndex i, const GlobalIndex j)
+{
+  char where[80];
+  std::snprintf(where, sizeof(where), "(%.6g, %.6g, %.6g) m", points[i][0],
+                points[i][1], points[i][2]);
+  throw std::invalid_argument("particles " + std::to_string(std::min(i, j)) +
+                              " and " + std::to_string(std::max(i, j)) +
+                              " coincide at " + where +
+                              "; every particle needs a place of its own");
+}
+} // namespace
+
 BondList::Rows
 BondList::rows_within(const std::vector<std::array<double, 3>> &points,
                       const std::array<double, 3> &spacing,
                       const double support, const bool cubic,
                       const std::vector<GlobalIndex> &owned_ids)
 {
-  // Buckets of one support, in scaled coordinates.
-  const std::size_t n = points.size();
-  std::array<double, 3> low{{1e300, 1e300, 1e300}},
-      high{{-1e300, -1e300, -1e300}};
-  for (const auto &p : points)
-    for (int d = 0; d < 3; ++d)
-    {
-      low[d] = std::min(low[d], p[d] / spacing[d]);
-      high[d] = std::max(high[d], p[d] / spacing[d]);
-    }
-  std::array<std::size_t, 3> n_buckets;
-  for (int d = 0; d < 3; ++d)
-    n_buckets[d] = static_cast<std::size_t>((high[d] - low[d]) / support) + 1;
-  const auto bucket_of = [&](const std::array<double, 3> &p, const int d)
-  {
-    return std::min(
-        n_buckets[d] - 1,
-        static_cast<std::size_t>((p[d] / spacing[d] - low[d]) / support));
-  };
-  std::vector<std::vector<GlobalIndex>> buckets(n_buckets[0] * n_buckets[1] *
-                                                n_buckets[2]);
-  for (std::size_t i = 0; i < n; ++i)
-    buckets[bucket_of(points[i], 0) +
-            n_buckets[0] * (bucket_of(points[i], 1) +
-                            n_buckets[1] * bucket_of(points[i], 2))]
-        .push_back(i);
-
+  const Buckets buckets(points, spacing, support);
   // A neighbour exactly at the support's edge has no weight.
   const double reach = support * (1. - 1e-9);
-  Rows row_ids(owned_ids.size());
+  Rows rows(owned_ids.size());
   for (std::size_t row = 0; row < owned_ids.size(); ++row)
   {
     const GlobalIndex i = owned_ids[row];
-    std::array<std::size_t, 3> b, first, last;
-    for (int d = 0; d < 3; ++d)
-    {
-      b[d] = bucket_of(points[i], d);
-      first[d] = b[d] > 0 ? b[d] - 1 : 0;
-      last[d] = std::min(b[d] + 1, n_buckets[d] - 1);
-    }
-    for (std::size_t z = first[2]; z <= last[2]; ++z)
-      for (std::size_t y = first[1]; y <= last[1]; ++y)
-        for (std::size_t x = first[0]; x <= last[0]; ++x)
-          for (const GlobalIndex j :
-               buckets[x + n_buckets[0] * (y + n_buckets[1] * z)])
-          {
-            if (j == i)
-              continue;
-            double r2 = 0., largest = 0.;
-            for (int d = 0; d < 3; ++d)
-            {
-              const double s = (points[j][d] - points[i][d]) / spacing[d];
-              r2 += s * s;
-              largest = std::max(largest, s * s);
-            }
-            if (r2 < 1e-12)
-              throw std::invalid_argument(
-                  "particles " + std::to_string(std::min(i, j)) + " and " +
-                  std::to_string(std::max(i, j)) + " coincide");
-            if ((cubic ? largest : r2) < reach * reach)
-              row_ids[row].push_back(j);
-          }
-    std::sort(row_ids[row].begin(), row_ids[row].end());
+    buckets.around(i,
+                   [&](const GlobalIndex j)
+                   {
+                     double r2 = 0., largest = 0.;
+                     for (int d = 0; d < 3; ++d)
+                     {
+                       const double s =
+                           (points[j][d] - points[i][d]) / spacing[d];
+                       r2 += s * s;
+                       largest = std::max(largest, s * s);
+                     }
+                     if (r2 < 1e-12)
+                       fail_coincident(points, i, j);
+                     if ((cubic ? largest : r2) < reach * reach)
+                       rows[row].push_back(j);
+                   });
+    std::sort(rows[row].begin(), rows[row].end());
   }
-  return row_ids;
+  return rows;
+}
+
+BondList::Rows
+BondList::rows_in_kernels(const std::vector<std::array<double, 3>> &points,
+                          const AlignedVector<Mat> &kernel, const bool cubic,
+                          const std::vector<GlobalIndex> &owned_ids)
+{
+  const bool one_for_all = kernel.size() == 1;
+  AlignedVector<Mat> to_kernel;
+  std::array<double, 3> extent{{0., 0., 0.}};
+  for (const Mat &H : kernel)
+  {
+    to_kernel.push_back(inverse(H));
+    // Half the bounding box of the mapped ball, or cube.
+    for (int d = 0; d < 3; ++d)
+      extent[d] = std::max(extent[d], cubic ? std::abs(H.row[d][0]) +
+                                                  std::abs(H.row[d][1]) +
+                                                  std::abs(H.row[d][2])
+                                            : norm(H.row[d]));
+  }
+  const auto distance = [&](const std::size_t centre, const Vec dX)
+  {
+    const Vec xi = to_kernel[one_for_all ? 0 : centre] * dX;
+    return cubic ? std::max({std::abs(xi[0]), std::abs(xi[1]), std::abs(xi[2])})
+                 : norm(xi);
+  };
+  // A neighbour exactly at the kernel's edge has no weight.
+  constexpr double edge = 1. - 1e-9, coincident = 5e-7;
+  Rows rows(owned_ids.size());
+  const Buckets buckets(points, extent, 1.);
+  for (std::size_t row = 0; row < owned_ids.size(); ++row)
+  {
+    const GlobalIndex i = owned_ids[row];
+    buckets.around(i,
+                   [&](const GlobalIndex j)
+                   {
+                     const Vec dX = vec(points[j][0] - points[i][0],
+                                        points[j][1] - points[i][1],
+                                        points[j][2] - points[i][2]);
+                     const double there = distance(i, dX),
+                                  back = one_for_all ? there : distance(j, dX);
+                     if (std::min(there, back) < coincident)
+                       fail_coincident(points, i, j);
+                     if (std::min(there, back) < edge)
+                       rows[row].push_back(j);
+                   });
+    std::sort(rows[row].begin(), rows[row].end());
+  }
+  return rows;
 }
 
 std::vector<GlobalIndex>

@@ -15,6 +15,7 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       options(options), n_global(this->cloud.position.size()),
       spacing(this->cloud.spacing),
       mean_spacing(std::cbrt(spacing[0] * spacing[1] * spacing[2])),
+      face_axis(this->cloud.face_axis), is_regular(this->cloud.shape.empty()),
       state_variables(this->material->state_variables())
 {
   n_states = count_states(state_variables);
@@ -26,6 +27,12 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
     throw InputError("Bodies/" + name + "/Critical effective plastic strain",
                      "the body's material has no effective plastic strain; "
                      "use a law with plasticity or remove the entry");
+  for (unsigned int face = 0; face < ParticleCloud::n_faces; ++face)
+    if (options.symmetry_faces & 1u << face &&
+        (face >= face_axis.size() || face_axis[face] < 0))
+      throw InputError("Bodies/" + name + "/Symmetry faces",
+                       "these faces do not lie in one plane across the x, y "
+                       "or z axis; a symmetry plane must");
 }
 
 void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -38,11 +45,17 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     if (owner[i] == rank)
       ids.push_back(i);
   const std::size_t n = ids.size();
+  AlignedVector<Mat> kernels = cloud.shape;
+  if (is_regular)
+    kernels.push_back(Mat{
+        {vec(spacing[0], 0, 0), vec(0, spacing[1], 0), vec(0, 0, spacing[2])}});
+  for (Mat &H : kernels)
+    H = options.normalized_support * H;
   BondList::Rows rows;
   try
   {
-    rows = BondList::rows_within(
-        cloud.position, cloud.spacing, options.normalized_support,
+    rows = BondList::rows_in_kernels(
+        cloud.position, kernels,
         options.kernel_shape == SpgOptions::KernelShape::tensor, ids);
   }
   catch (const std::invalid_argument &e)
@@ -68,9 +81,14 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
         material->density() * volume;
     on_face[i] = cloud.on_face[ids[i]];
     reference_volume[i] = volume;
-    for (int face = 0; face < 6; ++face)
-      if (on_face[i] & options.symmetry_faces & 1 << face)
-        constraints.prescribe(i, face / 2, 0.);
+    for (std::size_t face = 0; face < face_axis.size(); ++face)
+      if (on_face[i] & options.symmetry_faces & 1u << face)
+        constraints.prescribe(i, face_axis[face], 0.);
+    if (on_face[i] & options.clamped_faces)
+      for (int d = 0; d < 3; ++d)
+        constraints.prescribe(i, d, 0.);
+    if (!is_regular)
+      initial_kernel.push_back(kernels[ids[i]]);
   }
   constraints.finish();
   renumber(rows);
@@ -109,6 +127,13 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   std::fill(std::begin(batch.return_factor), std::end(batch.return_factor), 1.);
   std::fill(std::begin(batch.extra_square), std::end(batch.extra_square), 0.);
   set_up_kernel();
+}
+
+double SpgBody::local_spacing(const std::size_t i) const
+{
+  return is_regular ? mean_spacing
+                    : std::cbrt(determinant(initial_kernel[i])) /
+                          options.normalized_support;
 }
 
 void SpgBody::renumber(const BondList::Rows &rows)
@@ -153,7 +178,7 @@ void SpgBody::set_state(const std::string &wanted, const std::size_t i,
 }
 
 std::vector<std::size_t>
-SpgBody::particles_on_faces(const std::uint8_t faces) const
+SpgBody::particles_on_faces(const std::uint32_t faces) const
 {
   std::vector<std::size_t> particles;
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
@@ -171,8 +196,13 @@ ContactSurface SpgBody::contact_surface() const
     surface.nodes[i] = i;
   if (options.symmetry_faces != 0)
     for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-      surface.node_share.push_back(std::ldexp(
-          1., -__builtin_popcount(on_face[i] & options.symmetry_faces)));
+    {
+      unsigned int planes = 0; // a bit per axis
+      for (std::size_t face = 0; face < face_axis.size(); ++face)
+        if (on_face[i] & options.symmetry_faces & 1u << face)
+          planes |= 1u << face_axis[face];
+      surface.node_share.push_back(std::ldexp(1., -__builtin_popcount(planes)));
+    }
   surface.bulk_modulus = material->bulk_modulus();
   surface.spacing = mean_spacing;
   return surface;

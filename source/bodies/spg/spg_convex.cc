@@ -53,7 +53,7 @@ void SpgBody::compute_shape_gradients()
     add(i);
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       add(bonds.neighbor[b]);
-    return functions.evaluate(mean_spacing);
+    return functions.evaluate(local_spacing(i));
   };
 
   for (std::size_t i = 0; i < n; ++i)
@@ -90,7 +90,7 @@ void SpgBody::compute_shape_gradients()
     const Mat A = square_root(1. / total * moment);
     // Second derivatives as central differences of the exact gradients: each
     // of these reproduces linear fields, hence so do their differences.
-    const double width = 1e-3 * mean_spacing;
+    const double width = 1e-3 * local_spacing(i);
     std::vector<Mat> hessian(end - begin, Mat::zero());
     bool complete = true;
     for (int d = 0; d < 3; ++d)

@@ -20,6 +20,11 @@ void SpgBody::set_up_kernel()
   for (Mat &H : kernel)
     H = {{vec(support * spacing[0], 0, 0), vec(0, support * spacing[1], 0),
           vec(0, 0, support * spacing[2])}};
+  if (!is_regular)
+  {
+    std::copy(initial_kernel.begin(), initial_kernel.end(), kernel.begin());
+    node_exchange.update(kernel.data());
+  }
   kernel_position = nodal_state.position;
   previous_position = nodal_state.position;
   prepare_kernel();
@@ -81,8 +86,10 @@ void SpgBody::update_kernel(const std::size_t step)
     const Mat F = gradient[i];
     total_gradient[i] = F * total_gradient[i];
     kernel_volume[i] *= determinant(F);
-    kernel[i] =
-        clamp_kernel(F * kernel[i], axes, least_stretch, largest_stretch);
+    kernel[i] = is_regular ? clamp_kernel(F * kernel[i], axes, least_stretch,
+                                          largest_stretch)
+                           : clamp_kernel(F * kernel[i], initial_kernel[i],
+                                          least_stretch, largest_stretch);
     gradient[i] = Mat::identity();
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       bonds.residual[b] = store(residual_factor[i] * load(bonds.residual[b]));
@@ -114,8 +121,7 @@ void SpgBody::update_kernel(const std::size_t step)
     second_gradient->restart();
   estimate_stable_step();
   ++n_updates;
-  constexpr std::size_t steps_per_calibration = 300;
-  if (step >= last_calibration + steps_per_calibration)
+  if (calibration_is_due(step))
   {
     last_calibration = step;
     calibrate_stable_step();

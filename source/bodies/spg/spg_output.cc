@@ -206,6 +206,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visitor.visit_value("step calibration", step_calibration);
   visitor.visit_value("initial calibration", initial_calibration);
   visitor.visit_value("last calibration", last_calibration);
+  visitor.visit_value("calibrated bound", calibrated_bound);
   visitor.visit_value("kernel updates", n_updates);
   visitor.visit_value("fallbacks", n_fallback);
   visitor.visit_value("largest change", largest_change);

@@ -75,7 +75,7 @@ void SpgBody::estimate_stable_step()
     const double omega_square = (modulus * row + springs) / mass;
     update_stable_step[i] = (n_failed[i] == 0 ? step_calibration : 1.) *
                             (omega_square > 0. ? 2. / std::sqrt(omega_square)
-                                               : 2. * mean_spacing / c);
+                                               : 2. * local_spacing(i) / c);
   }
 }
 
@@ -228,6 +228,28 @@ double SpgBody::largest_frequency(const unsigned int n)
   return std::sqrt(std::max(0., solver.eigenvalues()[m - 1]) / scale);
 }
 
+double SpgBody::least_bound() const
+{
+  double bound = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    bound = std::min(bound, update_stable_step[i] /
+                                (n_failed[i] == 0 ? step_calibration : 1.));
+  MPI_Allreduce(MPI_IN_PLACE, &bound, 1, MPI_DOUBLE, MPI_MIN, communicator);
+  return bound;
+}
+
+bool SpgBody::calibration_is_due(const std::size_t step) const
+{
+  // By how much the bound is too short depends on the shape of the cloud: a
+  // flattened foot of a Taylor bar has less room than the bar of the start.
+  // Where the bound itself has moved, so may have that.
+  constexpr std::size_t steps_per_calibration = 300;
+  constexpr double change = 0.95;
+  const double ratio = least_bound() / calibrated_bound;
+  return step >= last_calibration + steps_per_calibration ||
+         std::min(ratio, 1. / ratio) < change;
+}
+
 void SpgBody::calibrate_stable_step()
 {
   // The bound is safe but 2 to 2.5 times too short for an intact cloud. How
@@ -242,11 +264,7 @@ void SpgBody::calibrate_stable_step()
     return;
   const double frequency = largest_frequency(n_iterations);
   const double before = step_calibration;
-  double bound = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    bound = std::min(bound,
-                     update_stable_step[i] / (n_failed[i] == 0 ? before : 1.));
-  MPI_Allreduce(MPI_IN_PLACE, &bound, 1, MPI_DOUBLE, MPI_MIN, communicator);
+  const double bound = calibrated_bound = least_bound();
   step_calibration = frequency > 0.
                          ? std::clamp(margin * 2. / (frequency * bound), 1.,
                                       initial_calibration)

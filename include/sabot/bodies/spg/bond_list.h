@@ -34,6 +34,16 @@ public:
                           const double support, const bool cubic,
                           const std::vector<GlobalIndex> &owned_ids);
 
+  /**
+   * Rows of points of which one lies in the kernel of the other: |H^-1 dX| < 1,
+   * or with @p cubic each component below 1. @p kernel: H of every point, or
+   * one for all. Throws std::invalid_argument for points that coincide.
+   */
+  static Rows rows_in_kernels(const std::vector<std::array<double, 3>> &points,
+                              const AlignedVector<Mat> &kernel,
+                              const bool cubic,
+                              const std::vector<GlobalIndex> &owned_ids);
+
   /** Numbers in @p rows that are not owned, ascending. */
   static std::vector<GlobalIndex>
   ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids);

@@ -70,7 +70,7 @@ public:
 
   /** Local indices of owned particles on the faces of @p faces (bits as in
       ParticleCloud::on_face). */
-  std::vector<std::size_t> particles_on_faces(const std::uint8_t faces) const;
+  std::vector<std::size_t> particles_on_faces(const std::uint32_t faces) const;
 
   /** Largest frequency of the linearised body at rest [rad/s], by @p n
       Lanczos iterations on M^-1 K with elastic moduli in the configuration of
@@ -106,6 +106,9 @@ private:
 
   // spg_body.cc
   void renumber(const BondList::Rows &rows);
+  /** Edge of the cube as large as the cell of an owned particle's lattice at
+      the start [m]; mean_spacing in a regular lattice. */
+  double local_spacing(const std::size_t i) const;
 
   // spg_kernel.cc
   void set_up_kernel();
@@ -134,6 +137,8 @@ private:
   // spg_step.cc
   void estimate_stable_step();
   void calibrate_stable_step();
+  bool calibration_is_due(const std::size_t step) const;
+  double least_bound() const;
   void apply_linearized(const AlignedVector<Vec> &motion,
                         AlignedVector<Vec> &force);
 
@@ -169,7 +174,9 @@ private:
   GlobalIndex n_global = 0;
   std::array<double, 3> spacing;
   double mean_spacing = 0.;
-  std::vector<int> rank_of; // of every particle, for new neighbours
+  std::vector<int> face_axis; // across each boundary id, -1: not a plane
+  bool is_regular;            // one kernel at the start for all
+  std::vector<int> rank_of;   // of every particle, for new neighbours
   GhostExchange node_exchange;
   BondList bonds;
 
@@ -188,8 +195,9 @@ private:
   std::vector<char> failed; // per bond, during an update
 
   // Owned particles
-  std::vector<std::uint8_t> on_face;
-  VelocityConstraints constraints; // symmetry planes
+  std::vector<std::uint32_t> on_face;
+  VelocityConstraints constraints;   // symmetry planes, clamped faces
+  AlignedVector<Mat> initial_kernel; // H of the start, unless regular
   std::vector<double> reference_volume, kernel_volume;
   AlignedVector<Mat> gradient;       // F since the last kernel update
   AlignedVector<Mat> total_gradient; // F up to the last kernel update
@@ -213,6 +221,7 @@ private:
   double step_calibration = 1.;
   double initial_calibration = std::numeric_limits<double>::max();
   std::size_t last_calibration = 0; // step
+  double calibrated_bound = 0.;     // Gershgorin's, at the last calibration [s]
   double largest_change = 0.;       // how far det F left 1, as a ratio >= 1
   std::size_t n_updates = 0, n_fallback = 0;
   std::vector<StateVariable> state_variables;

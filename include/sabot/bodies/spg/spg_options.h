@@ -68,7 +68,8 @@ struct SpgOptions
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
-  std::uint8_t symmetry_faces = 0; // bits as in ParticleCloud::on_face
+  // Bits as in ParticleCloud::on_face
+  std::uint32_t symmetry_faces = 0, clamped_faces = 0;
 
   static constexpr double never = 1e10;
   static constexpr double never_stress = 1e15; // [Pa]
