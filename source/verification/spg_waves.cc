@@ -273,7 +273,8 @@ std::vector<Check> spg_fragments()
       options));
   SelfContactOptions contact;
   world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), contact, MPI_COMM_WORLD));
+      "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
+      contact, MPI_COMM_WORLD));
   world.distribute();
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   NodalState &n = body.nodes();
