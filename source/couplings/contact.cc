@@ -406,9 +406,8 @@ void Contact::add_forces(const double dt)
     const double area = norm_square(group.area_vector) > 0.
                             ? std::max(0., -dot(group.area_vector, n))
                             : group.area;
-    const auto [fn, ft] =
-        contact_forces(options, k, reduced_mass, depth, v, n,
-                       group.shear_limit * area, dt);
+    const auto [fn, ft] = contact_forces(options, k, reduced_mass, depth, v, n,
+                                         group.shear_limit * area, dt);
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;
     for (std::size_t a = 0; a < slots.size(); ++a)
@@ -470,8 +469,11 @@ void Contact::visit_state(StateVisitor &visitor)
   {
     saved.push_back(
         {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
-         group.stiffness, group.spacing, group.area, group.area_vector,
-         group.memory, group.wake, group.patch_radius});
+    saved.push_back({halo.key(group.slot),
+                     std::int64_t(group.last_face - group.first_face),
+                     group.stiffness, group.spacing, group.area,
+                     group.shear_limit, group.area_vector, group.memory,
+                     group.wake, group.patch_radius});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));

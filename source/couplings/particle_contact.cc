@@ -152,6 +152,7 @@ void ParticleContact::build_halo()
     most = std::max(most, std::size_t(group.n_members));
   }
   weight.resize(most);
+  along_normal.resize(most);
   surface.resize(halo.size());
   normal_force.assign(halo.size(), Vec{});
   friction_force.assign(halo.size(), Vec{});
@@ -174,10 +175,10 @@ ParticleContact::Standing ParticleContact::locate(const Group &group,
   const bool inside = group.memory.depth > 0.;
   const double deepest = inside ? ParticleSearch::reach : 0.5;
   const Vec x = halo.position[at.node];
-  const Vec own = group.is_sound ? surface[at.node].normal : Vec{};
-  const bool has_normal = norm_square(own) > 0.;
+  const SurfacePoint own = group.is_sound ? surface[at.node] : SurfacePoint();
+  const bool has_normal = norm_square(own.normal) > 0.;
   Standing standing;
-  double sum = 0., gap = 0.;
+  double sum = 0.;
   Vec normal = {};
   for (std::size_t m = at.first_member; m < at.last_member; ++m)
   {
@@ -188,8 +189,8 @@ ParticleContact::Standing ParticleContact::locate(const Group &group,
     double facing = norm_square(n) > 0. ? 1. : 0.;
     if (has_normal)
     {
-      facing *= alignment(-dot(own, n));
-      n -= own;
+      facing *= alignment(-dot(own.normal, n));
+      n = surface[j].flatness * n - own.flatness * own.normal;
     }
     if (facing <= 0.)
       continue;
@@ -200,21 +201,67 @@ ParticleContact::Standing ParticleContact::locate(const Group &group,
     const double along = dot(d, n), spacing = surface[j].spacing;
     if (along < -deepest * spacing)
       continue;
-    const double lateral = std::sqrt(std::max(0., norm_square(d) - along * along));
+    const double lateral =
+        std::sqrt(std::max(0., norm_square(d) - along * along));
     w = facing * cubic_spline(lateral / (ParticleSearch::reach * spacing));
     sum += w;
-    gap += w * along;
     normal += w * n;
+    along_normal[m - at.first_member] = along;
   }
   const double part = sum / full_sum;
   if (part <= least_sum || norm_square(normal) == 0.)
     return standing;
+  standing.normal = (1. / norm(normal)) * normal;
+  balance_weights(at, standing.normal);
+  standing.gap = 0.;
+  for (std::size_t m = 0; m < at.last_member - at.first_member; ++m)
+    standing.gap += weight[m] * along_normal[m];
+  standing.fade = std::min(1., (part - least_sum) / (whole_sum - least_sum));
+  return standing;
+}
+
+void ParticleContact::balance_weights(const Slots &at, const Vec n)
+{
+  // w (1 + c . d), d tangential, has no first moment where the node stands
+  // between particles; beyond the last it gets as near as w >= 0 allows.
+  const Vec x = halo.position[at.node];
+  const auto tangential = [&](const std::size_t m)
+  {
+    const Vec d = x - halo.position[member_slots[m]];
+    return d - dot(d, n) * n;
+  };
+  Vec first = {};
+  Mat second = Mat::zero();
+  for (std::size_t m = at.first_member; m < at.last_member; ++m)
+    if (weight[m - at.first_member] > 0.)
+    {
+      const Vec d = tangential(m), wd = weight[m - at.first_member] * d;
+      first += wd;
+      add_outer(second, wd, d);
+    }
+  const double size = trace(second);
+  Vec slope = {};
+  if (size > 0.)
+  {
+    add_outer(second, size * n, n);
+    slope = -1. * (inverse(second + 1e-6 * size * Mat::identity()) * first);
+  }
+  double least = 0.;
+  for (std::size_t m = at.first_member; m < at.last_member; ++m)
+    if (weight[m - at.first_member] > 0.)
+      least = std::min(least, dot(slope, tangential(m)));
+  if (least < -1.)
+    slope *= -1. / least;
+  double sum = 0.;
+  for (std::size_t m = at.first_member; m < at.last_member; ++m)
+  {
+    double &w = weight[m - at.first_member];
+    if (w > 0.)
+      w *= std::max(0., 1. + dot(slope, tangential(m)));
+    sum += w;
+  }
   for (std::size_t m = 0; m < at.last_member - at.first_member; ++m)
     weight[m] /= sum;
-  standing.gap = gap / sum;
-  standing.fade = std::min(1., (part - least_sum) / (whole_sum - least_sum));
-  standing.normal = (1. / norm(normal)) * normal;
-  return standing;
 }
 
 void ParticleContact::add_forces(const double dt)

@@ -1,5 +1,7 @@
 #include "sabot/couplings/particle_search.h"
 
+#include "sabot/couplings/box_buckets.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,40 +9,14 @@ namespace sabot
 {
 namespace
 {
-struct Extent
+Box box_of(const Body &body, MPI_Comm communicator)
 {
-  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
-
-  /** Largest distance along an axis; negative where they overlap. */
-  double distance(const Extent &o) const
-  {
-    double d = -1e300;
-    for (int c = 0; c < 3; ++c)
-      d = std::max({d, low[c] - o.high[c], o.low[c] - high[c]});
-    return d;
-  }
-  bool is_within(const Vec x, const double r) const
-  {
-    for (int c = 0; c < 3; ++c)
-      if (!(x[c] > low[c] - r && x[c] < high[c] + r))
-        return false;
-    return true;
-  }
-};
-
-Extent extent_of(const Body &body, MPI_Comm communicator)
-{
-  Extent e;
+  Box box;
   const NodalState &nodes = body.nodes();
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
-    for (int c = 0; c < 3; ++c)
-    {
-      e.low[c] = std::min(e.low[c], nodes.position[i][c]);
-      e.high[c] = std::max(e.high[c], nodes.position[i][c]);
-    }
-  MPI_Allreduce(MPI_IN_PLACE, e.low, 3, MPI_DOUBLE, MPI_MIN, communicator);
-  MPI_Allreduce(MPI_IN_PLACE, e.high, 3, MPI_DOUBLE, MPI_MAX, communicator);
-  return e;
+    box.add(nodes.position[i]);
+  box.reduce(communicator);
+  return box;
 }
 } // namespace
 
@@ -56,11 +32,11 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
     others[b].push_back(a);
   }
   double spacing = 0.;
-  std::vector<Extent> extent(bodies.size());
+  std::vector<Box> extent(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (!others[b].empty())
     {
-      extent[b] = extent_of(*bodies[b], communicator);
+      extent[b] = box_of(*bodies[b], communicator);
       surfaces[b] = bodies[b]->contact_surface();
       spacing = std::max(spacing, surfaces[b].spacing);
     }
@@ -72,6 +48,8 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
   smallest_gap -= margin;
   if (smallest_gap > 0.)
     return;
+  for (Box &box : extent)
+    box.inflate(margin);
 
   for (std::size_t b = 0; b < bodies.size(); ++b)
   {
@@ -84,8 +62,9 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
     for (std::size_t i = 0; i < is_loose.size(); ++i)
     {
       const Vec x = nodes.position[i];
-      if (std::none_of(others[b].begin(), others[b].end(), [&](const int other)
-                       { return extent[other].is_within(x, margin); }))
+      if (std::none_of(others[b].begin(), others[b].end(),
+                       [&](const int other)
+                       { return extent[other].contains(x); }))
         continue;
       OpenParticle particle{};
       particle.key = {std::int32_t(b), 0, nodes.global_id[i]};
@@ -131,13 +110,13 @@ void ParticleSearch::near(const OpenParticle &node, const int other,
   if (!buckets[other])
     return;
   const std::size_t first = found.size();
-  buckets[other]->for_near(
-      node.x,
-      [&](const std::size_t s)
-      {
-        if (norm_square(sound[s].x - node.x) < sound[s].reach * sound[s].reach)
-          found.push_back(sound[s].key);
-      });
+  buckets[other]->for_near(node.x,
+                           [&](const std::size_t s)
+                           {
+                             if (norm_square(sound[s].x - node.x) <
+                                 sound[s].reach * sound[s].reach)
+                               found.push_back(sound[s].key);
+                           });
   std::sort(found.begin() + first, found.end());
 }
 } // namespace sabot

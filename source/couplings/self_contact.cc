@@ -28,6 +28,14 @@ SelfContact::SelfContact(const std::string &name,
 {
 }
 
+std::string SelfContact::kind() const
+{
+  for (const auto &[a, b] : body_pairs)
+    if (a == b)
+      return "self-contact";
+  return "contact";
+}
+
 void SelfContact::initialize()
 {
   skin = 1e300;
@@ -110,7 +118,8 @@ void SelfContact::search()
           pair.distance = std::min(options.contact_distance * h, distance);
           pair.stiffness = options.stiffness_scale * h *
                            std::min(mine_view.bulk_modulus, its.bulk_modulus);
-          pair.largest_friction = h * h * std::min(shear[a.body], shear[b.body]);
+          pair.largest_friction =
+              h * h * std::min(shear[a.body], shear[b.body]);
           found.push_back(pair);
         });
   }
@@ -159,8 +168,7 @@ void SelfContact::add_forces(const double dt)
   // particles owned here is complete.
   std::fill(softening.begin(), softening.end(), 0.);
   for (const Pair &pair : pairs)
-    if (norm_square(halo.position[pair.slot[1]] -
-                    halo.position[pair.slot[0]]) <
+    if (norm_square(halo.position[pair.slot[1]] - halo.position[pair.slot[0]]) <
         pair.distance * pair.distance)
       for (const std::size_t s : pair.slot)
         softening[s] += pair.stiffness;
@@ -179,10 +187,10 @@ void SelfContact::add_forces(const double dt)
     const double reduced_mass =
         1. / (1. / halo.inertia[a] + 1. / halo.inertia[b]);
     const double k = pair.stiffness * std::min(softening[a], softening[b]);
-    const ContactForces on_b = contact_forces(
-        options, k, reduced_mass, pair.distance - distance,
-        halo.velocity[b] - halo.velocity[a], (1. / distance) * offset,
-        pair.largest_friction, dt);
+    const ContactForces on_b =
+        contact_forces(options, k, reduced_mass, pair.distance - distance,
+                       halo.velocity[b] - halo.velocity[a],
+                       (1. / distance) * offset, pair.largest_friction, dt);
     normal_force[a] -= on_b.normal;
     normal_force[b] += on_b.normal;
     friction_force[a] -= on_b.friction;

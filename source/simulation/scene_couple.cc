@@ -114,7 +114,7 @@ void Scene::check_overlaps() const
 void Scene::build_couplings()
 {
   const std::vector<Body *> pointers = body_pointers();
-  std::set<std::pair<int, int>> tied;   // follower, leader
+  std::set<std::pair<int, int>> tied;     // follower, leader
   std::set<std::pair<int, int>> touching; // pairs of SPG bodies in a contact
   std::vector<std::unique_ptr<Coupling>> ties;
   const auto build_tie = [&](const std::string &name, const std::string &path)
@@ -126,7 +126,8 @@ void Scene::build_couplings()
     if (dynamic_cast<FemBody *>(bodies[leader].get()) == nullptr)
       throw InputError(path + "/Leader", "the leader must be a FEM body");
     if (dynamic_cast<RigidBody *>(bodies[follower].get()) != nullptr)
-      throw InputError(path + "/Follower", "a rigid body cannot follow another");
+      throw InputError(path + "/Follower",
+                       "a rigid body cannot follow another");
     tied.insert({follower, leader});
     ties.push_back(std::make_unique<Tie>(name, pointers, follower, leader,
                                          get_quantity(prm, "Tolerance"),
@@ -185,17 +186,31 @@ void Scene::build_couplings()
     SelfContactOptions options;
     read_contact_options(prm, path, options);
     options.contact_distance = get_quantity(prm, "Contact distance");
+    std::vector<ContactPair> folding;
+    std::vector<int> breaking;
+    for (const int a : members)
+      if (has_particles(*bodies[a]))
+        breaking.push_back(a);
+      else if (dynamic_cast<FemBody *>(bodies[a].get()) != nullptr)
+        folding.push_back({a, a, false});
+      else
+        throw InputError(path + "/Bodies", "\"" + bodies[a]->name +
+                                               "\" is rigid and cannot touch "
+                                               "itself");
     std::vector<std::pair<int, int>> pairs;
-    for (const auto &[a, b] : pairs_of(members, true))
+    for (const auto &[a, b] : pairs_of(breaking, true))
       if (touching.count({a, b}) == 0)
         pairs.emplace_back(a, b);
-    for (const int a : members)
-      if (!has_particles(*bodies[a]))
-        throw InputError(path + "/Bodies",
-                         "self-contact is between particles; \"" +
-                             bodies[a]->name + "\" is a FEM body");
-    couplings.push_back(std::make_unique<SelfContact>(
-        name, pointers, pairs, options, communicator));
+    if (!pairs.empty())
+      couplings.push_back(std::make_unique<SelfContact>(name, pointers, pairs,
+                                                        options, communicator));
+    if (folding.empty())
+      return;
+    ContactOptions of_surfaces = options;
+    of_surfaces.stability_fraction = ContactOptions().stability_fraction;
+    couplings.push_back(std::make_unique<Contact>(
+        pairs.empty() ? name : name + " of surfaces", pointers, folding,
+        of_surfaces, communicator));
   };
   // Contact knows what is tied, self-contact what meets in a contact.
   for (const std::string pass : {"tie", "contact", "self-contact"})

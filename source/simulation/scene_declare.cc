@@ -235,7 +235,7 @@ void declare_coupling(ParameterHandler &prm, const std::string &type)
                     "tie: nodes of one body move with the surface of another; "
                     "contact: nodes against the faces of FEM bodies and the "
                     "surfaces of particles, with friction; self-contact: "
-                    "debris of SPG bodies.");
+                    "debris of SPG bodies, surfaces of FEM bodies.");
   if (type == "tie")
   {
     prm.declare_entry("Follower", "", Patterns::Anything(),
@@ -262,8 +262,7 @@ void declare_coupling(ParameterHandler &prm, const std::string &type)
                     "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
                     "mu_d) exp(-decay speed), mu_s the friction coefficient; "
                     "-1: as at rest.");
-  prm.declare_entry("Friction decay", "0",
-                    QuantityPattern(Dimension::none, 0.),
+  prm.declare_entry("Friction decay", "0", QuantityPattern(Dimension::none, 0.),
                     "Decay of friction with the speed of sliding, in s/m.");
   prm.declare_entry("Shear strength", "0", YieldOrStress(),
                     "Friction per area stays below it; yield: the initial "

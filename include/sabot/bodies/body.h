@@ -32,8 +32,8 @@ struct ContactSurface
   /** Parallel to nodes: the part of a node that a model cut at symmetry planes
       holds, 1/2 on a plane, 1/4 on two; empty where all are whole. */
   std::vector<double> node_share;
-  double bulk_modulus = 0.; // [Pa], for the penalty
-  double spacing = 0.;      // [m], typical node distance
+  double bulk_modulus = 0.;    // [Pa], for the penalty
+  double spacing = 0.;         // [m], typical node distance
   double yield_stress = 1e300; // [Pa], initial; infinite: does not yield
 };
 
@@ -42,6 +42,9 @@ struct SurfacePoint
 {
   Vec normal = {};     // unit, outward; zero where the node is not on it
   double spacing = 0.; // [m], of such nodes, along the deformed surface
+  /** How far the normal is to be trusted beside another one: 1 on smooth
+      parts, little on edges and corners. */
+  double flatness = 0.;
 };
 
 /** Owned nodes that have come loose (a failed bond), which may meet each other

@@ -45,9 +45,9 @@ private:
     std::size_t slot;                  // of the halo
     std::size_t first_face, last_face; // of face_of_group
     double stiffness, spacing;
-    double area;     // over which friction may act [m^2]
+    double area;        // over which friction may act [m^2]
     double shear_limit; // of friction per area [Pa]
-    Vec area_vector; // of the node's own faces, zero where it has none
+    Vec area_vector;    // of the node's own faces, zero where it has none
     ContactMemory memory;
     /** Distance the bodies may travel before the node can touch a face. */
     double wake = 0.;

@@ -87,10 +87,11 @@ inline ContactForces contact_forces(const ContactOptions &options,
   const double speed = norm(sliding);
   // Friction cannot do more than stop the sliding within the step.
   const double drag =
-      speed > 0. ? std::min({options.friction_coefficient(speed) * pressing,
-                             largest_friction, 0.5 * reduced_mass * speed / dt}) /
-                       speed
-                 : 0.;
+      speed > 0.
+          ? std::min({options.friction_coefficient(speed) * pressing,
+                      largest_friction, 0.5 * reduced_mass * speed / dt}) /
+                speed
+          : 0.;
   return {pressing * n, -drag * sliding};
 }
 } // namespace sabot

@@ -7,7 +7,8 @@
 
 namespace sabot
 {
-/** Nodes of one body against the faces of another (indices of bodies). */
+/** Nodes of one body against the faces of another, or of the same (indices of
+    bodies). */
 struct ContactPair
 {
   int faces_of, nodes_of;

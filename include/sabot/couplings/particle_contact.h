@@ -72,17 +72,20 @@ private:
   void update_halo();
   /** Weights go to weight[]; fade 0: beyond the surface. */
   Standing locate(const Group &group, const Slots &slots);
+  /** Make weight[] sum to 1 and, as far as it can, to the node's place in the
+      plane with normal @p n, so that forces have the right moment. */
+  void balance_weights(const Slots &slots, const Vec n);
 
   const std::vector<Body *> bodies;
   const std::vector<std::pair<int, int>> pairs;
   const ContactOptions options;
   MPI_Comm communicator;
-  std::vector<Group> groups;       // sorted
-  std::vector<NodeKey> members;    // of the groups, one after the other
-  std::vector<Slots> slots;        // parallel to groups
+  std::vector<Group> groups;    // sorted
+  std::vector<NodeKey> members; // of the groups, one after the other
+  std::vector<Slots> slots;     // parallel to groups
   std::vector<std::size_t> member_slots;
-  std::vector<double> weight;      // of the members of one group
-  AlignedVector<SurfacePoint> surface; // per slot
+  std::vector<double> weight, along_normal; // of the members of one group
+  AlignedVector<SurfacePoint> surface;      // per slot
   NodeHalo halo;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
   double skin = 0.;      // [m], by which candidates may approach

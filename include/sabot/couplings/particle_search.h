@@ -47,7 +47,7 @@ public:
 private:
   std::vector<ContactSurface> surfaces;
   double smallest_gap = 0.;
-  std::vector<OpenParticle> my_particles, sound; // the latter of all ranks
+  std::vector<OpenParticle> my_particles, sound;      // the latter of all ranks
   std::vector<std::unique_ptr<PointBuckets>> buckets; // per body
 };
 } // namespace sabot

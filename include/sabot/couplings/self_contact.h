@@ -34,7 +34,8 @@ public:
               const std::vector<std::pair<int, int>> &pairs,
               const SelfContactOptions &options, MPI_Comm communicator);
 
-  std::string kind() const override { return "self-contact"; }
+  /** "self-contact", or "contact" where no body meets itself. */
+  std::string kind() const override;
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
@@ -46,9 +47,9 @@ public:
 private:
   struct Pair
   {
-    NodeKey first, second; // first < second
-    double distance;       // below which they repel [m]
-    double stiffness;      // [N/m]
+    NodeKey first, second;   // first < second
+    double distance;         // below which they repel [m]
+    double stiffness;        // [N/m]
     double largest_friction; // [N]
     std::size_t slot[2];
   };
