@@ -37,6 +37,8 @@ public:
                 const ContactMemory &memory) const
   {
     constexpr double cosine = 0.5; // as Contact
+    // Corners look half away from what they meet (0.58), bent ones more.
+    constexpr double facing = 0.25;
     for (const GlobalIndex a : ring[i])
       if (std::find(face.node.begin(), face.node.end(), a) != face.node.end())
         return false;
@@ -44,7 +46,7 @@ public:
     if (memory.depth > 0.)
       return dot(projection.face_normal, memory.side) >= cosine;
     return projection.along >= 0. &&
-           dot(areas[i], projection.face_normal) <= -cosine * norm(areas[i]);
+           dot(areas[i], projection.face_normal) <= -facing * norm(areas[i]);
   }
 
 private:

@@ -37,8 +37,9 @@ void add_self_contact(World &world)
 /** The prongs are thrown against each other. */
 std::vector<Check> prongs()
 {
-  const double v = 200.;
+  const double v = 120.;
   std::vector<Check> checks;
+  double free_gain = 0.;
   for (const bool held : {false, true})
   {
     World world;
@@ -80,6 +81,7 @@ std::vector<Check> prongs()
     const auto after = world.momenta();
     if (!held)
     {
+      free_gain = gain;
       checks.push_back({"without contact: least gap of the tips", -1e-3, least,
                         0., "m", "they would pass", Check::Kind::at_most});
       continue;
@@ -92,8 +94,9 @@ std::vector<Check> prongs()
     checks.push_back({"momentum, change over one prong's", 0.,
                       (after[0] - before[0]) / thrown, 1e-11, "1",
                       "conservation"});
-    checks.push_back({"largest gain of energy", 0., gain, 1e-3, "1",
-                      "energy balance", Check::Kind::at_most});
+    checks.push_back({"largest gain of energy, over that without contact",
+                      free_gain, gain, 1e-3, "1", "energy balance",
+                      Check::Kind::at_most});
     checks.push_back({"energy kept by contact and its damping", 0.,
                       world.energies()[2] / energy, 0., "1", "it only takes",
                       Check::Kind::at_least});
