@@ -187,12 +187,16 @@ SurfacePoint SpgBody::surface_point(const std::size_t i) const
   // corner, and 0 inside, less than 0.1 where spacings vary by a fifth.
   constexpr double inside = 0.2, face = 0.45, edge = 0.55;
   constexpr double least_flatness = 0.02;
+  // Bonds that last are told by where they began.
+  const Vec *const X =
+      options.neighbor_policy == SpgOptions::NeighborPolicy::lagrangian
+          ? nodal_state.reference_position.data()
+          : kernel_position.data();
   Vec mean = {}, moment = {};
   for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
   {
     const std::uint32_t j = bonds.neighbor[b];
-    const Vec dX =
-        nodal_state.reference_position[j] - nodal_state.reference_position[i];
+    const Vec dX = X[j] - X[i];
     mean += 1. / norm(dX) * dX;
     moment += bonds.weight[b] * (kernel_position[j] - kernel_position[i]);
   }
