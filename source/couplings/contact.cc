@@ -94,7 +94,7 @@ void Contact::search()
       memories.emplace_back(halo.key(group.slot), group.memory);
   const SearchResult found =
       search_contacts(bodies, surfaces, pairs, memories, spacing, skin,
-                      options.shear_limit < 1e300, communicator);
+                      options.has_shear_limit(), communicator);
 
   // Keep the groups in which any node is owned here: whoever owns a node
   // computes all that acts on it, from the same numbers in the same order.
@@ -151,12 +151,14 @@ void Contact::search()
     const std::int32_t body = c[first].node.body;
     group.spacing = surfaces[body].spacing;
     double modulus = surfaces[body].bulk_modulus;
+    double yield = surfaces[body].yield_stress;
     // Where both sides' nodes meet faces, each carries half of the shear.
     double sides = 1.;
     for (std::size_t i = first; i < last; ++i)
     {
       const int other = found.faces[faces_of[c[i].first_face]].body;
       modulus = std::min(modulus, surfaces[other].bulk_modulus);
+      yield = std::min(yield, surfaces[other].yield_stress);
       for (const ContactPair &pair : pairs)
         if (pair.faces_of == body && pair.nodes_of == other &&
             !pair.loose_nodes_only)
@@ -169,6 +171,8 @@ void Contact::search()
     group.last_face = face_of_group.size();
     group.stiffness =
         c[first].share * options.stiffness_scale * modulus * group.spacing;
+    group.shear_limit =
+        options.limit_by_yield ? yield / std::sqrt(3.) : options.shear_limit;
     group.area = c[first].share * group.spacing * group.spacing / sides;
     group.area_vector = (1. / sides) * c[first].area;
     groups.push_back(group);
@@ -273,27 +277,6 @@ std::ptrdiff_t Contact::holding_face(Group &group, FaceProjection &best,
   }
   memory.side = best.face_normal;
   return best.gap < 0. ? closest : -1;
-}
-
-double Contact::friction_coefficient(const double speed) const
-{
-  if (options.dynamic_friction < 0.)
-    return options.friction;
-  return options.dynamic_friction +
-         (options.friction - options.dynamic_friction) *
-             std::exp(-options.friction_decay * speed);
-}
-
-double Contact::effective_depth(ContactMemory &memory, const double depth,
-                                const double largest_change)
-{
-  if (memory.depth < 0.) // first seen
-    memory.offset = depth;
-  else if (depth > memory.depth + largest_change)
-    memory.offset += depth - memory.depth;
-  memory.offset = std::min(memory.offset, depth);
-  memory.depth = depth;
-  return depth - memory.offset;
 }
 
 void Contact::spread(const Group &group, const std::ptrdiff_t face,
@@ -413,31 +396,18 @@ void Contact::add_forces(const double dt)
       v -= w[a] * halo.velocity[slots[a]];
     }
     const double depth =
-        effective_depth(group.memory, geometric_depth, 2. * norm(v) * dt);
+        group.memory.effective_depth(geometric_depth, 2. * norm(v) * dt);
     if (depth <= 0.)
       continue;
     const double reduced_mass =
         1. / (1. / halo.inertia[group.slot] + face_compliance);
     const double k = std::min(group.stiffness, options.stability_fraction *
                                                    reduced_mass / (dt * dt));
-    const double normal_rate = dot(v, n);
-    const double damping = 2. * options.damping_fraction *
-                           std::sqrt(k * reduced_mass) *
-                           std::max(0., -normal_rate);
-    const double pressing = k * depth + damping;
-    const Vec sliding = v - normal_rate * n;
-    const double speed = norm(sliding);
     const double area = norm_square(group.area_vector) > 0.
                             ? std::max(0., -dot(group.area_vector, n))
                             : group.area;
-    // Friction cannot do more than stop the sliding within the step.
-    const double drag = speed > 0.
-                            ? std::min({friction_coefficient(speed) * pressing,
-                                        options.shear_limit * area,
-                                        0.5 * reduced_mass * speed / dt}) /
-                                  speed
-                            : 0.;
-    const Vec fn = pressing * n, ft = -drag * sliding;
+    const auto [fn, ft] = contact_forces(options, k, reduced_mass, depth, v, n,
+                                         group.shear_limit * area, dt);
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;
     for (std::size_t a = 0; a < slots.size(); ++a)
@@ -499,8 +469,11 @@ void Contact::visit_state(StateVisitor &visitor)
   {
     saved.push_back(
         {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
-         group.stiffness, group.spacing, group.area, group.area_vector,
-         group.memory, group.wake, group.patch_radius});
+    saved.push_back({halo.key(group.slot),
+                     std::int64_t(group.last_face - group.first_face),
+                     group.stiffness, group.spacing, group.area,
+                     group.shear_limit, group.area_vector, group.memory,
+                     group.wake, group.patch_radius});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));
@@ -536,6 +509,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     group.stiffness = from.stiffness;
     group.spacing = from.spacing;
     group.area = from.area;
+    group.shear_limit = from.shear_limit;
     group.area_vector = from.area_vector;
     group.memory = from.memory;
     group.wake = from.wake;

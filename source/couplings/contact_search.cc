@@ -1,5 +1,7 @@
 #include "sabot/couplings/contact_search.h"
 
+#include "sabot/couplings/box_buckets.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,127 +9,6 @@ namespace sabot
 {
 namespace
 {
-struct Box
-{
-  Vec low = {1e300, 1e300, 1e300, 0}, high = {-1e300, -1e300, -1e300, 0};
-
-  void add(const Vec x)
-  {
-    for (int d = 0; d < 3; ++d)
-    {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
-  }
-  void inflate(const double r)
-  {
-    low -= vec(r, r, r);
-    high += vec(r, r, r);
-  }
-  bool contains(const Vec x) const
-  {
-    for (int d = 0; d < 3; ++d)
-      if (!(x[d] >= low[d] && x[d] <= high[d]))
-        return false;
-    return true;
-  }
-  bool meets(const Box &o) const
-  {
-    for (int d = 0; d < 3; ++d)
-      if (!(o.high[d] >= low[d] && o.low[d] <= high[d]))
-        return false;
-    return true;
-  }
-  void reduce(MPI_Comm communicator)
-  {
-    double lows[3] = {low[0], low[1], low[2]},
-           highs[3] = {high[0], high[1], high[2]};
-    MPI_Allreduce(MPI_IN_PLACE, lows, 3, MPI_DOUBLE, MPI_MIN, communicator);
-    MPI_Allreduce(MPI_IN_PLACE, highs, 3, MPI_DOUBLE, MPI_MAX, communicator);
-    low = vec(lows[0], lows[1], lows[2]);
-    high = vec(highs[0], highs[1], highs[2]);
-  }
-};
-
-/** Faces by the buckets of a regular grid that their boxes cover, as one
-    compressed list. */
-class Buckets
-{
-public:
-  /** @p boxes: of the items; @p size: of a bucket, made larger where boxes are
-      far between. */
-  Buckets(const std::vector<Box> &boxes, double size)
-  {
-    Box all;
-    for (const Box &box : boxes)
-    {
-      all.add(box.low);
-      all.add(box.high);
-    }
-    low = all.low;
-    if (boxes.empty())
-      return;
-    const double most = 20. * boxes.size() + 1000.;
-    for (;; size *= 1.3)
-    {
-      double total = 1.;
-      for (int d = 0; d < 3; ++d)
-      {
-        const double cells = std::floor((all.high[d] - low[d]) / size) + 1.;
-        total *= cells;
-        n[d] = std::int64_t(std::min(cells, 1e9));
-      }
-      if (total <= most)
-        break;
-    }
-    scale = 1. / size;
-    start.assign(n[0] * n[1] * n[2] + 1, 0);
-    for (const Box &box : boxes)
-      for_all(box, [&](const std::int64_t bucket) { ++start[bucket + 1]; });
-    for (std::size_t k = 1; k < start.size(); ++k)
-      start[k] += start[k - 1];
-    items.resize(start.back());
-    std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-    for (std::size_t item = 0; item < boxes.size(); ++item)
-      for_all(boxes[item],
-              [&](const std::int64_t bucket) { items[next[bucket]++] = item; });
-  }
-  /** Items whose box may contain @p x, ascending. */
-  std::pair<const std::int32_t *, const std::int32_t *> find(const Vec x) const
-  {
-    std::array<std::int64_t, 3> i;
-    for (int d = 0; d < 3; ++d)
-    {
-      const double cell = std::floor((x[d] - low[d]) * scale);
-      if (!(cell >= 0. && cell < double(n[d])))
-        return {nullptr, nullptr};
-      i[d] = std::int64_t(cell);
-    }
-    const std::int64_t bucket = (i[2] * n[1] + i[1]) * n[0] + i[0];
-    return {items.data() + start[bucket], items.data() + start[bucket + 1]};
-  }
-
-private:
-  template <typename Action>
-  void for_all(const Box &box, const Action &action) const
-  {
-    std::array<std::int64_t, 3> a, b;
-    for (int d = 0; d < 3; ++d)
-    {
-      a[d] = std::int64_t((box.low[d] - low[d]) * scale);
-      b[d] = std::min(std::int64_t((box.high[d] - low[d]) * scale), n[d] - 1);
-    }
-    for (std::int64_t k = a[2]; k <= b[2]; ++k)
-      for (std::int64_t j = a[1]; j <= b[1]; ++j)
-        for (std::int64_t i = a[0]; i <= b[0]; ++i)
-          action((k * n[1] + j) * n[0] + i);
-  }
-  Vec low;
-  double scale = 0.;
-  std::array<std::int64_t, 3> n{{0, 0, 0}};
-  std::vector<std::int32_t> start, items;
-};
-
 Box box_of_faces(const Body &body, const ContactSurface &surface)
 {
   Box box;
@@ -136,6 +17,42 @@ Box box_of_faces(const Body &body, const ContactSurface &surface)
       box.add(body.nodes().position[a]);
   return box;
 }
+
+/** Which faces of its own body a node may meet: those that it faces, from
+    outside, and that are no neighbours of its own faces. */
+class OwnFaces
+{
+public:
+  OwnFaces(const Body &body, const ContactSurface &surface,
+           const AlignedVector<Vec> &areas)
+      : areas(areas), ring(surface.faces.empty() ? 0 : body.nodes().size())
+  {
+    for (const auto &face : surface.faces)
+      for (const std::size_t a : face)
+        for (const std::size_t b : face)
+          ring[a].push_back(body.nodes().global_id[b]);
+  }
+  bool may_meet(const std::size_t i, const FaceNodes &face,
+                const FaceProjection &projection,
+                const ContactMemory &memory) const
+  {
+    constexpr double cosine = 0.5; // as Contact
+    // Corners look half away from what they meet (0.58), bent ones more.
+    constexpr double facing = 0.25;
+    for (const GlobalIndex a : ring[i])
+      if (std::find(face.node.begin(), face.node.end(), a) != face.node.end())
+        return false;
+    // The far side of a thin part looks the wrong way.
+    if (memory.depth > 0.)
+      return dot(projection.face_normal, memory.side) >= cosine;
+    return projection.along >= 0. &&
+           dot(areas[i], projection.face_normal) <= -facing * norm(areas[i]);
+  }
+
+private:
+  const AlignedVector<Vec> &areas;
+  std::vector<std::vector<GlobalIndex>> ring; // nodes of a node's faces
+};
 } // namespace
 
 SearchResult search_contacts(const std::vector<Body *> &bodies,
@@ -217,7 +134,7 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
     boxes[f].inflate(reach);
     ++first_face[result.faces[f].body + 1];
   }
-  std::vector<Buckets> buckets;
+  std::vector<BoxBuckets> buckets;
   for (std::size_t b = 0; b < bodies.size(); ++b)
   {
     first_face[b + 1] += first_face[b];
@@ -233,7 +150,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
     const Body &body = *bodies[pair.nodes_of];
     const NodalState &nodes = body.nodes();
     AlignedVector<Vec> areas;
-    if (with_areas)
+    const bool with_itself = pair.faces_of == pair.nodes_of;
+    if (with_areas || with_itself)
     {
       areas.assign(nodes.size(), Vec{});
       for (const auto &face : surfaces[pair.nodes_of].faces)
@@ -245,6 +163,8 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
           areas[a] += 0.25 * area;
       }
     }
+    const OwnFaces own_faces(
+        body, with_itself ? surfaces[pair.nodes_of] : ContactSurface(), areas);
     const auto try_node = [&](const std::size_t i, const double share)
     {
       const Vec x = nodes.position[i];
@@ -266,10 +186,12 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
       for (const std::int32_t *item = near.first; item != near.second; ++item)
       {
         const std::int64_t f = first_face[pair.faces_of] + *item;
-        if (boxes[f].contains(x) &&
-            !is_farther(x, result.faces[f].x, my_reach) &&
-            project_on_face(x, result.faces[f].x).distance_square <
-                my_reach * my_reach)
+        const FaceNodes &face = result.faces[f];
+        if (!boxes[f].contains(x) || is_farther(x, face.x, my_reach))
+          continue;
+        const FaceProjection projection = project_on_face(x, face.x);
+        if (projection.distance_square < my_reach * my_reach &&
+            (!with_itself || own_faces.may_meet(i, face, projection, memory)))
           near_faces.push_back(f);
       }
       const std::int64_t last = near_faces.size();

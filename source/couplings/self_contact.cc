@@ -1,10 +1,10 @@
 #include "sabot/couplings/self_contact.h"
 
 #include "sabot/couplings/contact_search.h"
+#include "sabot/couplings/point_buckets.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace sabot
 {
@@ -20,23 +20,28 @@ struct Loose
 
 SelfContact::SelfContact(const std::string &name,
                          const std::vector<Body *> &bodies,
+                         const std::vector<std::pair<int, int>> &pairs,
                          const SelfContactOptions &options,
                          MPI_Comm communicator)
-    : Coupling(name), bodies(bodies), options(options),
+    : Coupling(name), bodies(bodies), body_pairs(pairs), options(options),
       communicator(communicator)
 {
+}
+
+std::string SelfContact::kind() const
+{
+  for (const auto &[a, b] : body_pairs)
+    if (a == b)
+      return "self-contact";
+  return "contact";
 }
 
 void SelfContact::initialize()
 {
   skin = 1e300;
-  for (const Body *body : bodies)
-    if (body->debris().spacing > 0.)
-      skin = std::min(skin, 0.4 * body->debris().spacing);
-  for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = 0; b <= a; ++b)
-      if (bodies[a]->debris().spacing > 0. && bodies[b]->debris().spacing > 0.)
-        body_pairs.emplace_back(a, b);
+  for (const auto &[a, b] : body_pairs)
+    for (const int body : {a, b})
+      skin = std::min(skin, 0.4 * bodies[body]->debris().spacing);
   search();
 }
 
@@ -54,14 +59,27 @@ void SelfContact::search()
   travelled = 0.;
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  std::vector<Loose> mine;
-  std::vector<DebrisView> views;
-  double largest_spacing = 0.;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
+  // Whether two bodies meet, and which take part at all.
+  const std::size_t n_bodies = bodies.size();
+  std::vector<char> meet(n_bodies * n_bodies, 0), used(n_bodies, 0);
+  for (const auto &[a, b] : body_pairs)
   {
-    views.push_back(bodies[b]->debris());
-    largest_spacing = std::max(largest_spacing, views.back().spacing);
-    for (const std::size_t i : views.back().nodes)
+    meet[a * n_bodies + b] = meet[b * n_bodies + a] = 1;
+    used[a] = used[b] = 1;
+  }
+  std::vector<Loose> mine;
+  std::vector<DebrisView> views(n_bodies);
+  std::vector<double> shear(n_bodies, options.shear_limit);
+  double largest_spacing = 0.;
+  for (std::size_t b = 0; b < n_bodies; ++b)
+  {
+    if (!used[b])
+      continue;
+    views[b] = bodies[b]->debris();
+    if (options.limit_by_yield)
+      shear[b] = bodies[b]->contact_surface().yield_stress / std::sqrt(3.);
+    largest_spacing = std::max(largest_spacing, views[b].spacing);
+    for (const std::size_t i : views[b].nodes)
       mine.push_back({{std::int32_t(b), 0, bodies[b]->nodes().global_id[i]},
                       i,
                       bodies[b]->nodes().position[i]});
@@ -70,54 +88,40 @@ void SelfContact::search()
   n_loose = all.size();
 
   const double reach = options.contact_distance * largest_spacing + skin;
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets;
-  const auto key = [&](const Vec x, const int dx, const int dy, const int dz)
-  {
-    constexpr std::int64_t mask = (1 << 21) - 1;
-    const std::int64_t i = std::floor(x[0] / reach),
-                       j = std::floor(x[1] / reach),
-                       k = std::floor(x[2] / reach);
-    return ((i + dx) & mask) << 42 | ((j + dy) & mask) << 21 |
-           ((k + dz) & mask);
-  };
+  PointBuckets buckets(reach);
   for (std::size_t i = 0; i < all.size(); ++i)
-    buckets[key(all[i].x, 0, 0, 0)].push_back(i);
+    buckets.add(all[i].x, i);
 
   std::vector<Pair> found;
-  for (std::size_t i = 0; i < mine.size(); ++i)
+  for (const Loose &from : mine)
   {
-    const NodeKey &a = mine[i].key;
-    const std::size_t a_local = mine[i].local;
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
+    const NodeKey &a = from.key;
+    buckets.for_near(
+        from.x,
+        [&](const std::size_t j)
         {
-          const auto bucket = buckets.find(key(mine[i].x, dx, dy, dz));
-          if (bucket == buckets.end())
-            continue;
-          for (const std::size_t j : bucket->second)
-          {
-            const NodeKey &b = all[j].key;
-            const double distance = norm(all[j].x - mine[i].x);
-            if (a == b || distance > reach)
-              continue;
-            // A pair owned here twice is kept once.
-            if (b < a && bodies[b.body]->node_owner[b.node] == rank)
-              continue;
-            if (a.body == b.body && bodies[a.body]->are_bonded(a_local, b.node))
-              continue;
-            const double h = std::min(views[a.body].spacing,
-                                      views[b.body].spacing),
-                         E = std::min(views[a.body].young_modulus,
-                                      views[b.body].young_modulus);
-            Pair pair;
-            pair.first = std::min(a, b);
-            pair.second = std::max(a, b);
-            pair.distance = std::min(options.contact_distance * h, distance);
-            pair.stiffness = options.stiffness_scale * E * h;
-            found.push_back(pair);
-          }
-        }
+          const NodeKey &b = all[j].key;
+          const double distance = norm(all[j].x - from.x);
+          if (a == b || distance > reach || !meet[a.body * n_bodies + b.body])
+            return;
+          // A pair owned here twice is kept once.
+          if (b < a && bodies[b.body]->node_owner[b.node] == rank)
+            return;
+          if (a.body == b.body &&
+              bodies[a.body]->are_bonded(from.local, b.node))
+            return;
+          const DebrisView &mine_view = views[a.body], &its = views[b.body];
+          const double h = std::min(mine_view.spacing, its.spacing);
+          Pair pair{};
+          pair.first = std::min(a, b);
+          pair.second = std::max(a, b);
+          pair.distance = std::min(options.contact_distance * h, distance);
+          pair.stiffness = options.stiffness_scale * h *
+                           std::min(mine_view.bulk_modulus, its.bulk_modulus);
+          pair.largest_friction =
+              h * h * std::min(shear[a.body], shear[b.body]);
+          found.push_back(pair);
+        });
   }
   const auto before = [](const Pair &p, const Pair &q)
   { return p.first == q.first ? p.second < q.second : p.first < q.first; };
@@ -147,6 +151,7 @@ void SelfContact::build_halo()
     pair.slot[0] = halo.slot(pair.first);
     pair.slot[1] = halo.slot(pair.second);
   }
+  softening.resize(halo.size());
   normal_force.assign(halo.size(), Vec{});
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
@@ -159,6 +164,19 @@ void SelfContact::add_forces(const double dt)
   std::fill(friction_force.begin(), friction_force.end(), Vec{});
   if (dt <= 0.)
     return;
+  // The stiffness of all that touches a particle bounds its frequency; that of
+  // particles owned here is complete.
+  std::fill(softening.begin(), softening.end(), 0.);
+  for (const Pair &pair : pairs)
+    if (norm_square(halo.position[pair.slot[1]] - halo.position[pair.slot[0]]) <
+        pair.distance * pair.distance)
+      for (const std::size_t s : pair.slot)
+        softening[s] += pair.stiffness;
+  for (std::size_t s = 0; s < halo.n_owned(); ++s)
+    softening[s] =
+        std::min(1., 0.5 * options.stability_fraction * halo.inertia[s] /
+                         (dt * dt * std::max(softening[s], 1e-300)));
+  halo.update_ghosts(softening.data());
   for (const Pair &pair : pairs)
   {
     const std::size_t a = pair.slot[0], b = pair.slot[1];
@@ -166,27 +184,17 @@ void SelfContact::add_forces(const double dt)
     const double distance = norm(offset);
     if (distance >= pair.distance || distance == 0.)
       continue;
-    const Vec n = (1. / distance) * offset;
-    const Vec v = halo.velocity[b] - halo.velocity[a];
     const double reduced_mass =
         1. / (1. / halo.inertia[a] + 1. / halo.inertia[b]);
-    const double k = std::min(pair.stiffness, options.stability_fraction *
-                                                  reduced_mass / (dt * dt));
-    const double rate = dot(v, n);
-    const double pressing =
-        k * (pair.distance - distance) + 2. * options.damping_fraction *
-                                             std::sqrt(k * reduced_mass) *
-                                             std::max(0., -rate);
-    const Vec sliding = v - rate * n;
-    const double speed = norm(sliding);
-    const double drag = speed > 0. ? std::min(options.friction * pressing,
-                                              0.5 * reduced_mass * speed / dt) /
-                                         speed
-                                   : 0.;
-    normal_force[a] -= pressing * n;
-    normal_force[b] += pressing * n;
-    friction_force[a] += drag * sliding;
-    friction_force[b] -= drag * sliding;
+    const double k = pair.stiffness * std::min(softening[a], softening[b]);
+    const ContactForces on_b =
+        contact_forces(options, k, reduced_mass, pair.distance - distance,
+                       halo.velocity[b] - halo.velocity[a],
+                       (1. / distance) * offset, pair.largest_friction, dt);
+    normal_force[a] -= on_b.normal;
+    normal_force[b] += on_b.normal;
+    friction_force[a] -= on_b.friction;
+    friction_force[b] += on_b.friction;
   }
   for (std::size_t s = 0; s < halo.size(); ++s)
     total_force[s] = normal_force[s] + friction_force[s];

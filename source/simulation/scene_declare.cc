@@ -16,6 +16,25 @@ namespace Patterns = dealii::Patterns;
 
 const Patterns::List names(Patterns::Anything(), 0, 1000, ",");
 
+/** A stress, or the word "yield". */
+class YieldOrStress : public QuantityPattern
+{
+public:
+  YieldOrStress() : QuantityPattern(Dimension::pressure, 0.) {}
+  bool match(const std::string &text) const override
+  {
+    return text == "yield" || QuantityPattern::match(text);
+  }
+  std::string description(const OutputStyle style) const override
+  {
+    return "yield, or " + QuantityPattern::description(style);
+  }
+  std::unique_ptr<PatternBase> clone() const override
+  {
+    return std::make_unique<YieldOrStress>(*this);
+  }
+};
+
 void declare_top(ParameterHandler &prm)
 {
   prm.declare_entry("Title", "", Patterns::Anything(),
@@ -221,8 +240,9 @@ void declare_coupling(ParameterHandler &prm, const std::string &type)
   prm.declare_entry("Type", "contact",
                     Patterns::Selection("tie|contact|self-contact"),
                     "tie: nodes of one body move with the surface of another; "
-                    "contact: nodes against faces, with friction; "
-                    "self-contact: debris of SPG bodies.");
+                    "contact: nodes against the faces of FEM bodies and the "
+                    "surfaces of particles, with friction; self-contact: "
+                    "debris of SPG bodies, surfaces of FEM bodies.");
   if (type == "tie")
   {
     prm.declare_entry("Follower", "", Patterns::Anything(),
@@ -241,27 +261,20 @@ void declare_coupling(ParameterHandler &prm, const std::string &type)
   prm.declare_entry("Damping fraction", "0.1",
                     QuantityPattern(Dimension::none, 0., 1.),
                     "Of critical, while two nodes approach.");
-  prm.declare_entry("Stiffness scale", type == "contact" ? "1" : "0.2",
+  prm.declare_entry("Stiffness scale", "1",
                     QuantityPattern(Dimension::none, 1e-3, 10.),
-                    type == "contact"
-                        ? "Penalty stiffness over bulk modulus times spacing."
-                        : "Penalty stiffness over Young's modulus times "
-                          "spacing.");
-  if (type == "contact")
-  {
-    prm.declare_entry("Dynamic friction coefficient", "-1",
-                      QuantityPattern(Dimension::none, -1., 2.),
-                      "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
-                      "mu_d) exp(-decay speed), mu_s the friction coefficient; "
-                      "-1: as at rest.");
-    prm.declare_entry("Friction decay", "0",
-                      QuantityPattern(Dimension::none, 0.),
-                      "Decay of friction with the speed of sliding, in s/m.");
-    prm.declare_entry("Shear strength", "0",
-                      QuantityPattern(Dimension::pressure, 0.),
-                      "Friction per area stays below it; the yield stress of "
-                      "the softer side over sqrt(3) is usual. 0: no limit.");
-  }
+                    "Penalty stiffness over bulk modulus times spacing.");
+  prm.declare_entry("Dynamic friction coefficient", "-1",
+                    QuantityPattern(Dimension::none, -1., 2.),
+                    "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
+                    "mu_d) exp(-decay speed), mu_s the friction coefficient; "
+                    "-1: as at rest.");
+  prm.declare_entry("Friction decay", "0", QuantityPattern(Dimension::none, 0.),
+                    "Decay of friction with the speed of sliding, in s/m.");
+  prm.declare_entry("Shear strength", "0", YieldOrStress(),
+                    "Friction per area stays below it; yield: the initial "
+                    "yield stress of the softer side over sqrt(3). 0: no "
+                    "limit.");
   if (type == "self-contact")
     prm.declare_entry("Contact distance", "0.9",
                       QuantityPattern(Dimension::none, 0.1, 1.),

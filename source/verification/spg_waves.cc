@@ -1,4 +1,3 @@
-#include "sabot/couplings/self_contact.h"
 #include "sabot/verification/problem.h"
 #include "sabot/verification/world.h"
 
@@ -257,83 +256,6 @@ std::vector<Check> spg_step_limit()
   return checks;
 }
 
-/** Two blocks of one body, apart by broken bonds, meet with +-v: only
-    self-contact holds them off. */
-std::vector<Check> spg_fragments()
-{
-  World world;
-  SpgOptions options = inviscid();
-  options.critical_effective_plastic_strain = 0.1;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 1.});
-  const double h = 1e-3;
-  world.bodies.push_back(std::make_unique<SpgBody>(
-      "bar", 0, make_box_cloud({{0, 0, 0}}, {{11e-3, 3e-3, 3e-3}}, h), metal,
-      options));
-  SelfContactOptions contact;
-  world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), contact, MPI_COMM_WORLD));
-  world.distribute();
-  auto &body = static_cast<SpgBody &>(*world.bodies[0]);
-  NodalState &n = body.nodes();
-  // Break the middle: strained particles whose bonds are stretched.
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-  {
-    const double x = n.reference_position[i][0];
-    if (std::abs(x) < 1.6e-3)
-      body.set_state("effective plastic strain", i, 1.);
-    n.velocity[i] = vec(x > 0. ? 60. : -60., 0., 0.);
-  }
-  world.integrator.initialize();
-  while (body.fragments().size() < 2 && world.integrator.time < 20e-6)
-    world.advance(0.5);
-  const std::size_t n_pieces = body.fragments().size();
-  // The break is over when nothing fails any more.
-  const double broken = world.integrator.time;
-  while (world.integrator.time < 2. * broken)
-    world.advance(0.5);
-  // Let them meet.
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-    n.velocity[i] = vec(n.reference_position[i][0] > 0. ? -20. : 20., 0., 0.);
-  const auto before = world.momenta();
-  const double energy = world.total_energy(), mass = measure(body, "mass");
-  double highest = energy, closest = 1e9;
-  const double end = world.integrator.time + 100e-6;
-  while (world.integrator.time < end)
-  {
-    world.advance(0.25);
-    highest = std::max(highest, world.total_energy());
-    double left = -1e9, right = 1e9;
-    for (std::size_t i = 0; i < n.n_owned; ++i)
-      if (n.reference_position[i][0] < 0.)
-        left = std::max(left, n.position[i][0]);
-      else
-        right = std::min(right, n.position[i][0]);
-    closest = std::min(closest, right - left);
-  }
-  const auto after = world.momenta();
-  double right_speed = 0., right_mass = 0.;
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-    if (n.reference_position[i][0] > 0.)
-    {
-      right_speed += n.lumped_mass[i] * n.velocity[i][0];
-      right_mass += n.lumped_mass[i];
-    }
-  return {{"pieces after the break", 2., double(n_pieces), 0., "1",
-           "connected components", Check::Kind::at_least},
-          {"momentum change over m v", 0.,
-           std::abs(after[0] - before[0]) / (mass * 20.), 1e-12, "1",
-           "equal and opposite forces"},
-          {"energy, largest gain", 0., (highest - energy) / energy, 1e-3, "1",
-           "self-contact stores no energy", Check::Kind::at_most},
-          {"least gap over spacing", 0., closest / h, 0., "1",
-           "pieces do not pass through each other", Check::Kind::at_least},
-          {"speed of the right piece, over the approach", 0.3,
-           std::abs(right_speed / right_mass) / 20., 0., "1",
-           "the pieces have stopped each other", Check::Kind::at_most}};
-}
-
 const RegisterProblem bar({"spg-bar", "longitudinal vibration, three spacings",
                            "quick", spg_bar}),
     beam({"spg-cantilever", "bending vibration, three spacings", "long",
@@ -341,8 +263,6 @@ const RegisterProblem bar({"spg-bar", "longitudinal vibration, three spacings",
     wave({"spg-wave", "elastic wave: arrival, amplitude, stress", "quick",
           spg_wave}),
     limit({"spg-step-limit", "steps just below and above the stable one",
-           "long", spg_step_limit}),
-    pieces({"spg-fragments", "two pieces collide through self-contact", "quick",
-            spg_fragments});
+           "long", spg_step_limit});
 } // namespace
 } // namespace sabot

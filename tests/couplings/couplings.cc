@@ -263,7 +263,8 @@ TEST(SelfContact, two_failed_particles_meet_and_part)
       "bar", 0, make_box_cloud({{0, 0, 0}}, {{8e-3, 2e-3, 2e-3}}, 1e-3), metal,
       options));
   world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), SelfContactOptions(), MPI_COMM_WORLD));
+      "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
+      SelfContactOptions(), MPI_COMM_WORLD));
   world.distribute();
   NodalState &n = world.bodies[0]->nodes();
   const auto throw_halves = [&](const double speed)

@@ -56,6 +56,28 @@ TEST(Elastic, rigid_rotation_turns_the_stress_only)
   EXPECT_NEAR(von_mises(point.stress), before, 1e-12 * before);
 }
 
+TEST(Laws, first_yield_is_where_they_say)
+{
+  EXPECT_GT(Elastic(aluminium).initial_yield_stress(), 1e100);
+  const HardeningPlasticity hardening(aluminium, {324e6, 150e6, 0.5});
+  const JohnsonCook johnson(aluminium, johnson_cook());
+  for (const Material *law : {static_cast<const Material *>(&hardening),
+                              static_cast<const Material *>(&johnson)})
+  {
+    const double Y = law->initial_yield_stress();
+    EXPECT_NEAR(Y, 324e6, 0.001 * 324e6);
+    // The last elastic and the first plastic of small steps bracket it.
+    Point point(*law);
+    const double step = 1e-6;
+    while (point.theta == 1.)
+    {
+      EXPECT_LT(von_mises(point.stress), Y);
+      point.step({0, 0, 0, step, 0, 0}, {0, 0, 0}, 1.);
+    }
+    EXPECT_NEAR(von_mises(point.stress), Y, 0.005 * Y);
+  }
+}
+
 TEST(Hardening, shear_follows_the_closed_form)
 {
   // Shear: sqrt(3) tau = Y + H eps, eps = (gamma - tau/G)/sqrt(3).

@@ -112,6 +112,25 @@ class Scenes(unittest.TestCase):
                                    delta=1e-6)
         self.assertEqual(histories[0], histories[1])
 
+    def test_particles_strike_particles_on_1_2_and_3_ranks(self):
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("particles%d" % ranks)
+            done = sabot("run", os.path.join(SOURCE,
+                                             "tests/scenes/spg-projectile.prm"),
+                         "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        self.assertLess(r["energy_residual_max"], 0.01)
+        self.assertGreater(r["bodies"]["core"]["bonds_broken_fraction"], 0.01)
+        # It is braked, and does not pass through.
+        self.assertLess(r["quantities"]["residual velocity"]["value"], 600.)
+        self.assertLess(r["contact"]["penetration_max_over_spacing"], 0.6)
+
     def test_materials_are_the_same_on_1_2_and_3_ranks(self):
         histories = []
         for ranks in (1, 2, 3):
@@ -315,6 +334,8 @@ class Scenes(unittest.TestCase):
                 ("erosion on two ranks", erosion, 2, coarse),
                 ("erosion of B-bar cells", erosion, 1, coarse + b_bar),
                 ("rigid", rigid, 2, ("--set", "End time=2 us")),
+                ("particles", os.path.join(
+                    SOURCE, "tests/scenes/spg-projectile.prm"), 2, ()),
                 ("materials", materials, 2, ())):
             with self.subTest(name):
                 straight, parted = folder("whole"), folder("parts")

@@ -32,8 +32,19 @@ struct ContactSurface
   /** Parallel to nodes: the part of a node that a model cut at symmetry planes
       holds, 1/2 on a plane, 1/4 on two; empty where all are whole. */
   std::vector<double> node_share;
-  double bulk_modulus = 0.; // [Pa], for the penalty
-  double spacing = 0.;      // [m], typical node distance
+  double bulk_modulus = 0.;    // [Pa], for the penalty
+  double spacing = 0.;         // [m], typical node distance
+  double yield_stress = 1e300; // [Pa], initial; infinite: does not yield
+};
+
+/** A node of a body without faces, as part of its surface. */
+struct SurfacePoint
+{
+  Vec normal = {};     // unit, outward; zero where the node is not on it
+  double spacing = 0.; // [m], of such nodes, along the deformed surface
+  /** How far the normal is to be trusted beside another one: 1 on smooth
+      parts, little on edges and corners. */
+  double flatness = 0.;
 };
 
 /** Owned nodes that have come loose (a failed bond), which may meet each other
@@ -41,7 +52,7 @@ struct ContactSurface
 struct DebrisView
 {
   std::vector<std::size_t> nodes; // owned, ascending
-  double young_modulus = 0.;      // [Pa]
+  double bulk_modulus = 0.;       // [Pa]
   double spacing = 0.;            // [m]
 };
 
@@ -115,6 +126,12 @@ public:
   virtual ContactSurface contact_surface() const = 0;
   /** Changes whenever contact_surface() would return something new. */
   virtual unsigned int contact_surface_version() const { return 0; }
+
+  /** Owned node @p i as part of a surface without faces, now. */
+  virtual SurfacePoint surface_point(const std::size_t /*i*/) const
+  {
+    return {};
+  }
 
   /** Empty for a body whose parts never come loose. */
   virtual DebrisView debris() const { return {}; }

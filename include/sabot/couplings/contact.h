@@ -1,27 +1,13 @@
 #ifndef sabot_couplings_contact_h
 #define sabot_couplings_contact_h
 
+#include "sabot/couplings/contact_law.h"
 #include "sabot/couplings/contact_search.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/node_halo.h"
 
 namespace sabot
 {
-/** Penalty law of contact. */
-struct ContactOptions
-{
-  /** Coulomb: mu = mu_d + (mu_s - mu_d) exp(-decay |sliding speed|). */
-  double friction = 0.;         // mu_s
-  double dynamic_friction = -1; // mu_d; negative: mu_s at all speeds
-  double friction_decay = 0.;   // [s/m]
-  /** Friction over the area of a node stays below this [Pa]; infinite: off. */
-  double shear_limit = 1e300;
-  double damping_fraction = 0.1; // of critical, while approaching
-  double stiffness_scale = 1.;   // of K h
-  /** Largest stiffness as a fraction of reduced mass over dt^2. */
-  double stability_fraction = 0.1;
-};
-
 /**
  * Node-to-face penalty contact with Coulomb friction between several bodies:
  * nodes of each body (all particles, surface nodes of hexahedra) against the
@@ -59,8 +45,9 @@ private:
     std::size_t slot;                  // of the halo
     std::size_t first_face, last_face; // of face_of_group
     double stiffness, spacing;
-    double area;     // over which friction may act [m^2]
-    Vec area_vector; // of the node's own faces, zero where it has none
+    double area;        // over which friction may act [m^2]
+    double shear_limit; // of friction per area [Pa]
+    Vec area_vector;    // of the node's own faces, zero where it has none
     ContactMemory memory;
     /** Distance the bodies may travel before the node can touch a face. */
     double wake = 0.;
@@ -72,16 +59,13 @@ private:
   {
     NodeKey node;
     std::int64_t n_faces;
-    double stiffness, spacing, area;
+    double stiffness, spacing, area, shear_limit;
     Vec area_vector;
     ContactMemory memory;
     double wake, patch_radius;
   };
   void restore_groups(const std::vector<SavedGroup> &saved,
                       const std::vector<NodeKey> &face_nodes);
-  /** Part of the depth that repels; updates the memory. */
-  static double effective_depth(ContactMemory &memory, const double depth,
-                                const double largest_change);
   void search();
   /** Radius over which a particle presses on the faces of another body; 0 where
       it presses at a point. */
@@ -97,7 +81,6 @@ private:
                               const double dt) const;
   double relative_speed(const Group &group, const std::ptrdiff_t face,
                         const FaceProjection &projection) const;
-  double friction_coefficient(const double speed) const;
   /** What a node presses on: the four nodes of the face that holds it or, of a
       particle, those within its patch, as smooth surface. Sets touched_slots
       and touched_weights, @p normal and @p depth. */

@@ -1,28 +1,18 @@
 #ifndef sabot_couplings_contact_search_h
 #define sabot_couplings_contact_search_h
 
+#include "sabot/couplings/contact_law.h"
 #include "sabot/couplings/node_halo.h"
 #include "sabot/kernels/closest_point.h"
 
 namespace sabot
 {
-/** Nodes of one body against the faces of another (indices of bodies). */
+/** Nodes of one body against the faces of another, or of the same (indices of
+    bodies). */
 struct ContactPair
 {
   int faces_of, nodes_of;
   bool loose_nodes_only = false;
-};
-
-/**
- * What is known of a node's past contact. A node that is found inside without
- * having come in through a face (at the start, or because the closest face
- * changed) repels only below the depth at which it was found: no energy enters.
- */
-struct ContactMemory
-{
-  Vec side = {};      // outward normal of the face last met; zero: none yet
-  double depth = -1.; // at the last step [m]; negative: not known
-  double offset = 0.; // part of the depth that does not repel [m]
 };
 
 struct FaceNodes

@@ -41,6 +41,18 @@ public:
   void update();
   /** Slot of a key that was asked for. */
   std::size_t slot(const NodeKey &key) const;
+  /** Fill the entries of the nodes owned elsewhere. Collective. */
+  template <typename T>
+  void update_ghosts(T *data) const
+  {
+    exchange.update(data);
+  }
+  /** Body and local number of an owned slot. */
+  const Body &body(const std::size_t slot) const
+  {
+    return *all_bodies[owned_body[slot]];
+  }
+  std::size_t local(const std::size_t slot) const { return owned_local[slot]; }
   /** Add slot forces of the owned nodes to their bodies. */
   void add_to_bodies(const AlignedVector<Vec> &force) const;
 

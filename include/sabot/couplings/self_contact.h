@@ -1,18 +1,16 @@
 #ifndef sabot_couplings_self_contact_h
 #define sabot_couplings_self_contact_h
 
+#include "sabot/couplings/contact_law.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/node_halo.h"
 
 namespace sabot
 {
-struct SelfContactOptions
+struct SelfContactOptions : ContactOptions
 {
-  double friction = 0.;
-  double stiffness_scale = 0.2;    // of E h
-  double damping_fraction = 0.1;   // of critical, while approaching
-  double contact_distance = 0.9;   // of the spacing
-  double stability_fraction = 0.1; // of reduced mass over dt^2
+  SelfContactOptions() { stability_fraction = 0.4; }
+  double contact_distance = 0.9; // of the spacing
 };
 
 /**
@@ -21,14 +19,23 @@ struct SelfContactOptions
  * d0 = min(0.9 h, distance when first met), so that no energy enters when a
  * pair is found close together; Coulomb friction. Pair forces are equal and
  * opposite; each rank computes all pairs of its own particles.
+ *
+ * k = K h: a column of particles of cross-section h^2 that touch answers a
+ * strain e, a change of distance by h e, with K h^2 e, as the material does
+ * without room to the sides. The stiffness S_a = sum k of all pairs that touch
+ * particle a moves it with a frequency below (2 S_a/m_a)^(1/2) (Gershgorin),
+ * so k is scaled down to keep 2 S_a dt^2/m_a below the stability fraction.
  */
 class SelfContact : public Coupling
 {
 public:
+  /** @p pairs: of bodies that may meet, as indices; (a, a) for one body. */
   SelfContact(const std::string &name, const std::vector<Body *> &bodies,
+              const std::vector<std::pair<int, int>> &pairs,
               const SelfContactOptions &options, MPI_Comm communicator);
 
-  std::string kind() const override { return "self-contact"; }
+  /** "self-contact", or "contact" where no body meets itself. */
+  std::string kind() const override;
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
@@ -40,9 +47,10 @@ public:
 private:
   struct Pair
   {
-    NodeKey first, second; // first < second
-    double distance;       // below which they repel [m]
-    double stiffness;      // [N/m]
+    NodeKey first, second;   // first < second
+    double distance;         // below which they repel [m]
+    double stiffness;        // [N/m]
+    double largest_friction; // [N]
     std::size_t slot[2];
   };
   void search();
@@ -50,11 +58,12 @@ private:
   void build_halo();
 
   const std::vector<Body *> bodies;
+  const std::vector<std::pair<int, int>> body_pairs;
   const SelfContactOptions options;
   MPI_Comm communicator;
-  std::vector<Pair> pairs;                     // sorted by keys
-  std::vector<std::pair<int, int>> body_pairs; // that have debris
+  std::vector<Pair> pairs; // sorted by keys
   NodeHalo halo;
+  std::vector<double> softening; // per slot, of the stiffness
   AlignedVector<Vec> normal_force, friction_force, total_force;
   double skin = 0., travelled = 0.;
   std::size_t n_loose = 0;

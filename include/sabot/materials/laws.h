@@ -48,6 +48,8 @@ public:
                       const HardeningParameters &parameters,
                       const Eos &eos = {});
 
+  double initial_yield_stress() const override { return pieces[0].stress; }
+
 protected:
   std::vector<StateVariable> law_variables() const override;
   void update_deviator(const MaterialBatch &batch,

@@ -70,6 +70,9 @@ public:
   virtual double density() const = 0;       // [kg/m^3]
   virtual double bulk_modulus() const = 0;  // [Pa]
   virtual double shear_modulus() const = 0; // [Pa]
+  /** Uniaxial, slow, at the initial temperature [Pa]; laws that never yield
+      leave it. */
+  virtual double initial_yield_stress() const { return 1e300; }
   /** Dilatational wave speed sqrt((K + 4/3 G)/rho) [m/s]. */
   double sound_speed() const;
   /** One entry per array, except that a tensor entry stands for six. By

@@ -60,6 +60,7 @@ public:
   void visit_state(StateVisitor &visitor) override;
 
   ContactSurface contact_surface() const override;
+  SurfacePoint surface_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
   std::vector<Fragment> fragments() const override;
