@@ -308,6 +308,9 @@ void OnePoint::kinematics(const NodalState &nodes, const std::size_t pack,
   {
     const Pack coefficient = options.hourglass_coefficient * 0.25 * density *
                              c * g.size_square * root * root;
+    // An explicit viscosity must not take more than the mode's velocity within
+    // a step: c dt |gamma|^2 <= m/8, |gamma|^2 = 8 + p S p (doc/theory-fem.md).
+    const Pack most = (dt > 0. ? 0.125 * density / dt : 1e300) * g.volume;
     Pack rate[3][4];
     for (int i = 0; i < 3; ++i)
       hourglass_sums(x[i], rate[i]);
@@ -317,10 +320,14 @@ void OnePoint::kinematics(const NodalState &nodes, const std::size_t pack,
       Pack pulled[3];
       for (int i = 0; i < 3; ++i)
         pulled[i] = dot(inverse.m[i], mode);
+      const Pack square = pulled[0] * dot(S.m[0], pulled) +
+                          pulled[1] * dot(S.m[1], pulled) +
+                          pulled[2] * dot(S.m[2], pulled);
+      const Pack bounded = pack_min(coefficient, most / (8. + square));
       for (int i = 0; i < 3; ++i)
       {
         const Pack r = rate[i][m] - dot(L.m[i], pulled);
-        const Pack f = coefficient * r;
+        const Pack f = bounded * r;
         work += (f + old.mode[m][i]) * r;
         old.mode[m][i] = f;
         out.mode[m][i] = f;
