@@ -24,8 +24,8 @@ public:
         {
           for (std::size_t i = 0; i < n.size(); ++i)
             n.velocity[i] =
-                vec(rate(t) * n.position[i][0], 0.999 * n.velocity[i][1],
-                    0.999 * n.velocity[i][2]);
+                vec(rate(t) * n.position[i][0], 0.99 * n.velocity[i][1],
+                    0.99 * n.velocity[i][2]);
         }));
     world.distribute();
     world.integrator.initialize();

@@ -76,19 +76,34 @@ double beam_theory(const double nu)
 
 std::vector<Check> bending()
 {
-  const double stiff = deflection(0.3, 0.5) / beam_theory(0.3),
-               soft = deflection(0.4999, 0.5) / beam_theory(0.4999);
-  return {{"tip deflection over beam theory, nu = 0.3", 1., stiff, 0.15, "1",
-           "Timoshenko beam; four spacings over the height"},
-          {"tip deflection over beam theory, nu = 0.4999", 1., soft, 0.15, "1",
+  const auto ratio = [](const double nu, const double spacing)
+  { return deflection(nu, spacing) / beam_theory(nu); };
+  const double coarse = ratio(0.3, 1. / 2.), fine = ratio(0.3, 1. / 3.),
+               soft_coarse = ratio(0.4999, 1. / 2.),
+               soft_fine = ratio(0.4999, 1. / 3.);
+  // Second order over a ratio of spacings of 1.5.
+  const auto limit = [](const double c, const double f)
+  { return f + (f - c) / (1.5 * 1.5 - 1.); };
+  return {{"nu 0.3, 4 spacings over the height: deflection over theory", 1.,
+           coarse, 0., "1", "Timoshenko beam", Check::Kind::reported},
+          {"nu 0.3, 6 spacings: deflection over theory", 1., fine, 0.15, "1",
            "Timoshenko beam"},
-          {"nu = 0.4999 against 0.3", 1., soft / stiff, 0.08, "1",
+          {"nu 0.3: extrapolated by second order", 1.,
+           limit(coarse, fine), 0.05, "1", "Timoshenko beam"},
+          {"nu 0.4999, 4 spacings: deflection over theory", 1., soft_coarse, 0.,
+           "1", "Timoshenko beam", Check::Kind::reported},
+          {"nu 0.4999, 6 spacings: deflection over theory", 1., soft_fine, 0.,
+           "1", "Timoshenko beam", Check::Kind::reported},
+          {"nu 0.4999: extrapolated by second order", 1.,
+           limit(soft_coarse, soft_fine), 0.1, "1",
+           "Timoshenko beam; the foot is held across, too"},
+          {"nu 0.4999 against 0.3, 6 spacings", 1., soft_fine / fine, 0.1, "1",
            "no volumetric locking"}};
 }
 
 const RegisterProblem
     registered({"spg-bending",
                 "static bending of a nearly incompressible beam of particles",
-                "extremes quick", bending});
+                "extremes long", bending});
 } // namespace
 } // namespace sabot

@@ -30,14 +30,13 @@ double elastic_energy(const SpgBody &body)
   return sum;
 }
 
-/** A bar whose ends fly apart at 2 x 100 m/s is torn in two. */
+/** A bar whose ends fly apart at 2 x 250 m/s is torn in two. */
 std::vector<Check> tension_bar()
 {
   std::vector<Check> checks;
-  std::vector<double> dissipated;
   for (const double spacing : {1e-3, 0.75e-3, 0.5e-3})
   {
-    const double L = 12e-3, w = 3e-3, v = 100.;
+    const double L = 12e-3, w = 3e-3, v = 250.;
     World world;
     SpgOptions o;
     o.critical_effective_plastic_strain = 0.4;
@@ -50,10 +49,12 @@ std::vector<Check> tension_bar()
     world.distribute();
     auto &body = static_cast<SpgBody &>(*world.bodies[0]);
     NodalState &n = body.nodes();
-    // Stretched at a uniform rate, while the bar flies.
+    // The middle third is stretched, its ends pull, and the whole bar flies.
     for (std::size_t i = 0; i < n.n_owned; ++i)
       n.velocity[i] =
-          vec(2. * v * n.reference_position[i][0] / L + 3., -1., 2.);
+          vec(v * std::clamp(n.reference_position[i][0] / (L / 6.), -1., 1.) +
+                  3.,
+              -1., 2.);
     world.integrator.initialize();
     EnergyWatch watch(world);
     const auto before = world.momenta();
@@ -99,7 +100,6 @@ std::vector<Check> tension_bar()
     const double stored = elastic_energy(body),
                  lost = energy - e.kinetic.value() - stored,
                  plastic = e.plastic_work.value();
-    dissipated.push_back(lost);
     char text[32];
     std::snprintf(text, sizeof(text), "%g mm: ", 1e3 * spacing);
     const std::string at = text;
