@@ -103,10 +103,86 @@ std::vector<Check> saint_venant()
            "energy balance"}};
 }
 
+/** Two equal bars of a bilinear metal meet at 2 x v: an elastic front of the
+    yield stress and a plastic one behind it (Karman, Taylor and Rakhmatulin).
+    Strains are of 1 %; nu = 0.3 with free sides, slender. */
+std::vector<Check> bilinear()
+{
+  const double h = 0.5e-3, v = 20., Y = 100e6, Et = E / 9.;
+  const double H = E * Et / (E - Et), c = std::sqrt(E / rho), c_p = c / 3.;
+  const int n = 240;
+  const double length = n * h;
+  const auto metal = std::make_shared<HardeningPlasticity>(
+      ElasticConstants{rho, E, 0.3}, HardeningParameters{Y, H, 1.});
+  World world;
+  for (const int side : {-1, 1})
+  {
+    FemOptions options;
+    options.initial_velocity = {{-side * v, 0., 0.}};
+    world.bodies.push_back(std::make_unique<DrivenFemBody>(
+        side < 0 ? "striker" : "bar", world.bodies.size(),
+        make_bar(side < 0 ? -length : 0., n, h), metal, options,
+        [](NodalState &, const double) {}));
+  }
+  world.couplings.push_back(std::make_unique<Contact>(
+      "contact", world.pointers(),
+      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, ContactOptions(),
+      MPI_COMM_WORLD));
+  world.distribute();
+  world.integrator.initialize();
+  const double energy = world.total_energy();
+  const auto &bar = static_cast<const FemBody &>(*world.bodies[1]);
+  // What the elastic front leaves, and the plastic one.
+  const double jump = Y / (rho * c), stress = Y + rho * c_p * (v - jump),
+               strain = (stress - Y) / H;
+  Crossing elastic_near{-v + 0.5 * jump}, elastic_far{-v + 0.5 * jump},
+      plastic_near{0.5 * (jump - v)}, plastic_far{0.5 * (jump - v)};
+  for (Crossing *x : {&elastic_near, &elastic_far, &plastic_near, &plastic_far})
+    x->old_value = -v;
+  const double end = 0.95 * length / c;
+  while (world.integrator.time < end)
+  {
+    world.advance(0.9);
+    const double t = world.integrator.time;
+    elastic_near.sample(t, velocity_at(bar, 40e-3, 0.5 * h));
+    elastic_far.sample(t, velocity_at(bar, 100e-3, 0.5 * h));
+    plastic_near.sample(t, velocity_at(bar, 10e-3, 0.5 * h));
+    plastic_far.sample(t, velocity_at(bar, 30e-3, 0.5 * h));
+  }
+  const std::vector<double> eps = bar.cell_state("effective plastic strain");
+  double behind = 0., between = 0., flow = 0.;
+  const int first = std::lround(8e-3 / h), last = std::lround(24e-3 / h),
+            from = std::lround(60e-3 / h), to = std::lround(90e-3 / h);
+  for (int e = first; e < last; ++e)
+  {
+    behind -= bar.stress(0, e) / (last - first);
+    flow += eps[e] / (last - first);
+  }
+  for (int e = from; e < to; ++e)
+    between -= bar.stress(0, e) / (to - from);
+  const std::string source = "one-dimensional bilinear bar";
+  return {{"speed of the elastic front", c,
+           60e-3 / (elastic_far.time - elastic_near.time), 0.01 * c, "m/s",
+           "sqrt(E/rho)"},
+          {"speed of the plastic front", c_p,
+           20e-3 / (plastic_far.time - plastic_near.time), 0.03 * c_p, "m/s",
+           "sqrt(Et/rho)"},
+          {"stress between the fronts", Y, between, 0.02 * Y, "Pa", source},
+          {"stress behind both", stress, behind, 0.02 * stress, "Pa",
+           "Y + rho c_p (v - Y/(rho c))"},
+          {"plastic strain behind both", strain, flow, 0.03 * strain, "1",
+           "(stress - Y)/H"},
+          {"energy change", 0., world.total_energy() / energy - 1., 2e-3, "1",
+           "energy balance"}};
+}
+
 const RegisterProblem wave({"bar-wave", "slender elastic bar, driven end",
                             "quick", bar_wave});
 const RegisterProblem impact({"saint-venant-impact",
                               "two equal elastic bars meet", "quick",
                               saint_venant});
+const RegisterProblem plastic({"saint-venant-bilinear",
+                               "two equal bars of a bilinear metal meet",
+                               "quick", bilinear});
 } // namespace
 } // namespace sabot

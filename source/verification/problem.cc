@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace sabot
 {
@@ -38,6 +39,15 @@ RegisterProblem::RegisterProblem(const VerificationProblem &problem)
   problems.insert(position, problem);
 }
 
+bool VerificationProblem::has_label(const std::string &word) const
+{
+  std::istringstream words(label);
+  for (std::string w; words >> w;)
+    if (w == word)
+      return true;
+  return false;
+}
+
 namespace
 {
 std::vector<VerificationProblem> selected(const std::vector<std::string> &names)
@@ -47,14 +57,16 @@ std::vector<VerificationProblem> selected(const std::vector<std::string> &names)
   for (const VerificationProblem &p : verification_problems())
   {
     known.push_back(p.name);
-    known.push_back(p.label);
+    std::istringstream words(p.label);
+    for (std::string word; words >> word;)
+      known.push_back(word);
   }
   for (const std::string &name :
        names.empty() ? std::vector<std::string>{"quick"} : names)
   {
     const std::size_t before = chosen.size();
     for (const VerificationProblem &p : verification_problems())
-      if (p.name == name || p.label == name || name == "all")
+      if (p.name == name || p.has_label(name) || name == "all")
         chosen.push_back(p);
     if (chosen.size() == before)
       throw InputError("", "no verification problem or label is called \"" +
@@ -134,7 +146,7 @@ bool verify(const std::vector<std::string> &names, const std::string &json_file)
 void list_problems()
 {
   for (const VerificationProblem &p : verification_problems())
-    std::printf("%-28s %-9s %s\n", p.name.c_str(), p.label.c_str(),
+    std::printf("%-28s %-14s %s\n", p.name.c_str(), p.label.c_str(),
                 p.description.c_str());
 }
 } // namespace sabot

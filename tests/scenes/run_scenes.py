@@ -256,15 +256,148 @@ class Scenes(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("/nowhere/scene.prm", done.stdout)
 
+    def test_files_that_cannot_be_read_are_named(self):
+        os.makedirs(WORK, exist_ok=True)
+        meshes = {"empty.msh": "", "text.msh": "no mesh at all\n",
+                  "cut.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+                             "$Nodes\n8\n1 0 0 0\n2 1 0 0\n",
+                  "binary.vtk": "\0\1\2\3", "other.xyz": "1 2 3\n"}
+        for name, text in meshes.items():
+            with open(os.path.join(WORK, name), "w") as file:
+                file.write(text)
+        for name in list(meshes) + ["missing.msh"]:
+            path = os.path.join(WORK, name)
+            done = sabot("check", BAR, "--set",
+                         "Bodies/block/Discretization=FEM", "--set",
+                         "Bodies/block/Geometry=file", "--set",
+                         "Bodies/block/Mesh file=" + path, "--set",
+                         "Quantities/speed/Type=length")
+            self.assertEqual(done.returncode, 1, name + "\n" + done.stdout)
+            self.assertIn("Bodies/block/Mesh file", done.stdout)
+            self.assertIn(name, done.stdout)
+            self.assertEqual(len(done.stdout.strip().splitlines()), 1,
+                             done.stdout)
+        scene = os.path.join(WORK, "broken.prm")
+        for text, expected in (
+                ("include nowhere.prm\n", "nowhere.prm"),
+                ("include %s\nsubsection Bodies\n" % BAR, "end"),
+                ("include %s\nset End time\n" % BAR, "broken.prm:2"),
+                ("include %s\nset Nonsens = 1\n" % BAR, "broken.prm:2")):
+            with open(scene, "w") as file:
+                file.write(text)
+            done = sabot("check", scene)
+            self.assertEqual(done.returncode, 1, text + done.stdout)
+            self.assertIn(expected, done.stdout)
+            self.assertEqual(len(done.stdout.strip().splitlines()), 1,
+                             done.stdout)
+
     def test_a_step_above_the_limit_is_caught(self):
+        # By the energy balance.
         out = folder("unstable")
+        fem = ("--set", "Bodies/block/Discretization=FEM", "--set",
+               "Bodies/block/Cell size=1 mm", "--set",
+               "Outputs/fields/Interval=0.1 ms", "--set",
+               "Quantities/speed/Type=length")
         done = sabot("run", BAR, "-o", out, "--quiet", "--set",
-                     "Step factor=2", "--set", "End time=1 ms", "--set",
-                     "Bodies/block/Discretization=FEM", "--set",
-                     "Bodies/block/Cell size=1 mm", "--set",
-                     "Outputs/fields/Interval=0.1 ms", "--set",
-                     "Quantities/speed/Type=length")
-        self.assertNotEqual(done.returncode, 0)
+                     "Step factor=2", "--set", "End time=1 ms", *fem)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        r = result(out)
+        self.assertEqual(r["status"], "failed")
+        self.assertLess(r["time"], 1e-3)
+
+    def test_what_is_no_number_any_more_is_named(self):
+        # Steps far above the limit, and an energy balance that nothing breaks:
+        # what remains is the place where the motion went wrong.
+        for name, settings in (
+                ("SPG", ()),
+                ("FEM", ("--set", "Bodies/block/Discretization=FEM", "--set",
+                         "Bodies/block/Cell size=1 mm"))):
+            out = folder("no-number")
+            done = sabot("run", BAR, "-o", out, "--quiet", "--set",
+                         "Step factor=2", "--set", "End time=2 ms", "--set",
+                         "Energy residual limit=1000", "--set",
+                         "Outputs/fields/Interval=1 ms", "--set",
+                         "Outputs/averages/Interval=1 ms", "--set",
+                         "Quantities/speed/Type=length", *settings)
+            self.assertEqual(done.returncode, 2, name + done.stdout)
+            reason = result(out)["reason"]
+            self.assertRegex(reason, r"body block, (particle|cell) \d+",
+                             name)
+
+    def test_a_full_disk_keeps_what_was_written(self):
+        # A file may not grow beyond a limit: as a full disk, without a mount.
+        def limited():
+            import resource
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, LIMIT))
+
+        whole = folder("disk-whole")
+        settings = ("--quiet", "--set", "End time=40 us", "--set",
+                    "Outputs/averages/Interval=0.05 us", "--set",
+                    "Outputs/fields/Interval=4 us")
+        done = sabot("run", BAR, "-o", whole, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        size = os.path.getsize(os.path.join(whole, "history.h5"))
+        LIMIT = int(0.6 * size)
+        for name in os.listdir(whole):  # only the history meets the limit
+            if name.endswith(".vtu"):
+                self.assertLess(os.path.getsize(os.path.join(whole, name)),
+                                LIMIT)
+        out = folder("disk-full")
+        done = subprocess.run([SABOT, "run", BAR, "-o", out, *settings],
+                              stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT,
+                              universal_newlines=True, preexec_fn=limited,
+                              env=ENVIRONMENT, timeout=120)
+        self.assertEqual(done.returncode, 4, done.stdout)
+        self.assertIn("history.h5", done.stdout)
+        self.assert_whole_results(out)
+
+    def test_a_full_file_system_keeps_what_was_written(self):
+        out = folder("tmpfs")
+        os.makedirs(out)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=600k",
+                                  "none", out], stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL)
+        if mounted.returncode != 0:
+            self.skipTest("no right to mount a file system")
+        try:
+            run = os.path.join(out, "run")
+            done = sabot("run", BAR, "-o", run, "--quiet", "--set",
+                         "End time=200 us", "--set",
+                         "Outputs/fields/Interval=1 us", "--set",
+                         "Outputs/averages/Interval=1 us")
+            self.assertEqual(done.returncode, 4, done.stdout)
+            self.assertIn("cannot write", done.stdout)
+            self.assertIn("No space left on device", done.stdout)
+            self.assert_whole_results(run)
+        finally:
+            subprocess.run(["umount", out], check=True)
+
+    def assert_whole_results(self, out):
+        """The collection names whole files only, the history is whole."""
+        with open(os.path.join(out, "sabot.pvd")) as file:
+            pvd = file.read()
+        self.assertTrue(pvd.rstrip().endswith("</VTKFile>"))
+        names = [line.split('file="')[1].split('"')[0]
+                 for line in pvd.splitlines() if "DataSet" in line]
+        self.assertGreater(len(names), 0)
+        for name in names:
+            with open(os.path.join(out, name), "rb") as file:
+                self.assertTrue(file.read().rstrip().endswith(b"</VTKFile>"),
+                                name)
+        # HDF5: the end of file that the superblock (version 0) claims.
+        path = os.path.join(out, "history.h5")
+        if os.path.exists(path):
+            with open(path, "rb") as file:
+                head = file.read(96)
+            self.assertEqual(head[:8], b"\x89HDF\r\n\x1a\n")
+            self.assertIn(head[8], (0, 2, 3))
+            at = 40 if head[8] == 0 else 28
+            self.assertEqual(int.from_bytes(head[at:at + 8], "little"),
+                             os.path.getsize(path))
+        self.assertFalse(any(name.endswith(".part")
+                             for name in os.listdir(out)))
 
     def test_a_signal_leaves_readable_results(self):
         out = folder("signal")

@@ -27,7 +27,7 @@ std::vector<VerificationProblem> quick_problems()
 {
   std::vector<VerificationProblem> quick;
   for (const VerificationProblem &p : verification_problems())
-    if (p.label == "quick")
+    if (p.has_label("quick"))
       quick.push_back(p);
   return quick;
 }

@@ -34,10 +34,12 @@ struct VerificationProblem
 {
   std::string name; // words joined by hyphens
   std::string description;
-  /** quick: part of the tests; long: minutes; extremes: the suite of extreme
-      conditions. */
+  /** One or more words. quick: part of the tests; long: minutes; extremes: the
+      suite of extreme conditions. */
   std::string label;
   std::vector<Check> (*run)();
+
+  bool has_label(const std::string &word) const;
 };
 
 /** All problems, sorted by name; filled by RegisterProblem. */

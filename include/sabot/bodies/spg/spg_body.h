@@ -95,6 +95,10 @@ public:
   }
   void set_state(const std::string &name, const std::size_t i,
                  const double value);
+  double state(const std::string &name, const std::size_t i) const
+  {
+    return state_array(name)[i];
+  }
   std::size_t n_fallbacks() const { return n_fallback; }
   std::size_t n_kernel_updates() const { return n_updates; }
   bool is_weak(const std::size_t i) const { return weak[i]; }
