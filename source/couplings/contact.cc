@@ -469,11 +469,8 @@ void Contact::visit_state(StateVisitor &visitor)
   {
     saved.push_back(
         {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
-    saved.push_back({halo.key(group.slot),
-                     std::int64_t(group.last_face - group.first_face),
-                     group.stiffness, group.spacing, group.area,
-                     group.shear_limit, group.area_vector, group.memory,
-                     group.wake, group.patch_radius});
+         group.stiffness, group.spacing, group.area, group.shear_limit,
+         group.area_vector, group.memory, group.wake, group.patch_radius});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));

@@ -105,7 +105,8 @@ std::vector<Check> costs()
   std::vector<Check> checks;
   const auto measured = [&](const std::string &name, const double ns)
   {
-    checks.push_back({name, 0., ns, 0., "ns", "processor time per item and step",
+    checks.push_back({name, 0., ns, 0., "ns",
+                      "processor time per item and step",
                       Check::Kind::reported});
   };
   const auto plain = johnson_cook(strength());

@@ -41,8 +41,8 @@ void shear_hot(std::vector<Check> &checks, const std::string &who,
   p.specific_heat = 896.;
   p.initial_temperature = temperature;
   World world;
-  add(world, std::make_shared<JohnsonCook>(
-                 ElasticConstants{2700., 68.9e9, 0.33}, p));
+  add(world,
+      std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33}, p));
   world.distribute();
   Body &body = *world.bodies[0];
   NodalState &n = body.nodes();
@@ -81,22 +81,22 @@ void shear_hot(std::vector<Check> &checks, const std::string &who,
   hottest = measure(body, "temperature max");
   char at[64];
   std::snprintf(at, sizeof(at), "from %g K: ", temperature);
-  checks.push_back({who + at + "numbers", 1., double(finite), 0., "1",
-                    "no not-a-number"});
+  checks.push_back(
+      {who + at + "numbers", 1., double(finite), 0., "1", "no not-a-number"});
   if (temperature >= p.melt_temperature)
   {
-    checks.push_back({who + at + "von Mises stress over A", 0.,
-                      strongest / p.A, 1e-9, "1", "no strength at melt"});
-    checks.push_back({who + at + "temperature", temperature, hottest, 1e-6,
-                      "K", "nothing heats"});
+    checks.push_back({who + at + "von Mises stress over A", 0., strongest / p.A,
+                      1e-9, "1", "no strength at melt"});
+    checks.push_back({who + at + "temperature", temperature, hottest, 1e-6, "K",
+                      "nothing heats"});
   }
   else
   {
     checks.push_back({who + at + "temperature at most", p.melt_temperature,
                       hottest, 1., "K", "heating stops at melt",
                       Check::Kind::at_most});
-    checks.push_back({who + at + "temperature at least", 700., hottest, 0.,
-                      "K", "so that it gets near melt", Check::Kind::at_least});
+    checks.push_back({who + at + "temperature at least", 700., hottest, 0., "K",
+                      "so that it gets near melt", Check::Kind::at_least});
     checks.push_back({who + at + "von Mises stress over A", 0.4,
                       strongest / p.A, 0., "1", "it has softened",
                       Check::Kind::at_most});
@@ -133,8 +133,9 @@ std::vector<Check> melt()
 void stiff_and_soft(std::vector<Check> &checks, const bool soft_particles)
 {
   const double soft = 68.9e3, stiff = 68.9e9, v = 0.05;
-  const auto material = [&](const double E)
-  { return std::make_shared<Elastic>(ElasticConstants{2700., E, 0.}); };
+  const auto material = [&](const double E) {
+    return std::make_shared<Elastic>(ElasticConstants{2700., E, 0.});
+  };
   World world;
   FemOptions fem = inviscid_cells();
   fem.symmetry_boundary_ids = {2, 3, 4, 5};
@@ -147,9 +148,9 @@ void stiff_and_soft(std::vector<Check> &checks, const bool soft_particles)
   box.size = {{cells, h, h}};
   box.centre = {{-0.5 * cells, 0., 0.}};
   box.cell_size = h;
-  world.bodies.push_back(std::make_unique<FemBody>(
-      "cells", 0, make_graded_box(box), material(soft_particles ? stiff : soft),
-      fem));
+  world.bodies.push_back(
+      std::make_unique<FemBody>("cells", 0, make_graded_box(box),
+                                material(soft_particles ? stiff : soft), fem));
   world.bodies.push_back(std::make_unique<SpgBody>(
       "particles", 1,
       make_box_cloud({{0.5 * cloud, 0., 0.}}, {{cloud, h, h}}, h),
@@ -261,8 +262,8 @@ std::vector<Check> aspect_ratio()
   NodalState &n = free.bodies[0]->nodes();
   shake(*free.bodies[0], 0.01);
   for (std::size_t i = 0; i < n.n_owned; ++i)
-    n.velocity[i] += cross(vec(0., 0., 100.), n.reference_position[i] -
-                                                  vec(0.5 * length, 0., 0.));
+    n.velocity[i] += cross(vec(0., 0., 100.),
+                           n.reference_position[i] - vec(0.5 * length, 0., 0.));
   free.integrator.initialize();
   EnergyWatch watch(free);
   const auto before = free.momenta();
@@ -324,13 +325,12 @@ std::vector<Check> spacing_jump()
   const auto after = world.momenta();
   EnergyLedger e;
   world.couplings[0]->add_energies(e);
-  return {{"energy residual", 0., watch.residual(), 2e-3, "1",
-           "energy balance", Check::Kind::at_most},
+  return {{"energy residual", 0., watch.residual(), 2e-3, "1", "energy balance",
+           Check::Kind::at_most},
           {"momentum after over before", 1., after[0] / before[0], 1e-12, "1",
            "conservation"},
           {"work of the tie over the energy", 0.,
-           e.tie.value() / balance(world), 1e-12, "1",
-           "the tie does no work"},
+           e.tie.value() / balance(world), 1e-12, "1", "the tie does no work"},
           {"energy that has crossed", 0.3, crossed, 0., "1",
            "half of the wave runs to the tie", Check::Kind::at_least}};
 }

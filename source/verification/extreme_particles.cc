@@ -56,8 +56,8 @@ void few_particles(std::vector<Check> &checks, const int n)
     error = off <= error ? error : off;
   }
   const std::string who = n == 1 ? "one particle: " : "two particles: ";
-  checks.push_back({who + "position, relative error", 0., error, 1e-12, "1",
-                    "free flight"});
+  checks.push_back(
+      {who + "position, relative error", 0., error, 1e-12, "1", "free flight"});
   checks.push_back(
       {who + "energy residual", 0., watch.residual(), 1e-12, "1", "free"});
   checks.push_back({who + "pieces", 0., double(body.fragments().size()), 0.,
@@ -76,7 +76,8 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
       "block", 0, make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, h), metal(),
       options));
   world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), SelfContactOptions(), MPI_COMM_WORLD));
+      "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
+      SelfContactOptions(), MPI_COMM_WORLD));
   world.distribute();
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   NodalState &n = body.nodes();
@@ -107,9 +108,8 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
     }
   };
   run(1e-6);
-  const double bonds_left =
-      measure(body, "bonds broken") *
-      (1. / measure(body, "bonds broken fraction") - 1.);
+  const double bonds_left = measure(body, "bonds broken") *
+                            (1. / measure(body, "bonds broken fraction") - 1.);
   const std::size_t n_pieces = body.fragments().size();
   // Back together: the ledger goes on with the kinetic energy put in.
   for (std::size_t i = 0; i < n.n_owned; ++i)

@@ -62,7 +62,8 @@ Outcome strike(const double speed, const double end)
   SelfContactOptions debris;
   debris.friction = 0.3;
   world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), debris, MPI_COMM_WORLD));
+      "debris", world.pointers(), std::vector<std::pair<int, int>>{{1, 1}},
+      debris, MPI_COMM_WORLD));
   world.couplings.push_back(std::make_unique<Tie>("zone", world.pointers(), 1,
                                                   0, 0.05, MPI_COMM_WORLD));
   world.distribute();
@@ -104,9 +105,9 @@ std::vector<Check> plate()
     // where it does not: its waves have run up and down twice.
     const Outcome o = strike(speed, speed < 2000. ? 40e-6 : 20e-6);
     const std::string at = std::to_string(int(speed)) + " m/s: ";
-    checks.push_back({at + "clean end" +
-                          (o.problem.empty() ? "" : " (" + o.problem + ")"),
-                      1., double(o.problem.empty()), 0., "1", "no stop"});
+    checks.push_back(
+        {at + "clean end" + (o.problem.empty() ? "" : " (" + o.problem + ")"),
+         1., double(o.problem.empty()), 0., "1", "no stop"});
     checks.push_back({at + "energy residual", 0.01, o.residual, 0., "1",
                       "energy balance", Check::Kind::at_most});
     checks.push_back({at + "speed of the projectile over the first", 0.,

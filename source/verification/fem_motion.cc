@@ -78,12 +78,10 @@ std::vector<Check> spinning_plate()
                                 : "B-bar: ";
     checks.push_back({who + "angular momentum, relative change", 0.,
                       after[5] / before[5] - 1., 1e-10, "1", "conservation"});
-    checks.push_back({who + "energy residual", 0.,
-                      watch.residual(), 1e-3, "1", "conservation",
-                      Check::Kind::at_most});
+    checks.push_back({who + "energy residual", 0., watch.residual(), 1e-3, "1",
+                      "conservation", Check::Kind::at_most});
     checks.push_back({who + "mean stress, turns 6-10 over 1-5", 1.,
-                      late / n_late * n_early / early, 0.03, "1",
-                      "no growth"});
+                      late / n_late * n_early / early, 0.03, "1", "no growth"});
     checks.push_back({who + "mean trace of the stress", virial,
                       (early + late) / (n_early + n_late), 0.06 * virial, "Pa",
                       "virial: rho omega^2 <r^2>, undeformed"});
@@ -155,8 +153,8 @@ std::vector<Check> twisting_columns()
   {
     checks.push_back({who + "largest twist of the tip", 0., c.twist, 0., "rad",
                       "", Check::Kind::reported});
-    checks.push_back({who + "its time", 0., c.time, 0., "s", "",
-                      Check::Kind::reported});
+    checks.push_back(
+        {who + "its time", 0., c.time, 0., "s", "", Check::Kind::reported});
     checks.push_back({who + "energy residual", 0.01, c.residual, 0., "1",
                       "conservation", Check::Kind::at_most});
   };
@@ -164,11 +162,11 @@ std::vector<Check> twisting_columns()
   {
     FemOptions options = inviscid(FemOptions::Integration::b_bar);
     options.clamped_boundary_ids = {4};
-    const Column c = twist_column(
-        std::make_unique<FemBody>(
-            "column", 0, box({{1., 1., 6.}}, {{0., 0., 3.}}, h), rubber,
-            options),
-        false);
+    const Column c =
+        twist_column(std::make_unique<FemBody>(
+                         "column", 0, box({{1., 1., 6.}}, {{0., 0., 3.}}, h),
+                         rubber, options),
+                     false);
     fem[k] = c.twist;
     fem_time[k++] = c.time;
     report("B-bar, 1/" + std::to_string(int(1. / h)) + " m: ", c);
@@ -184,9 +182,9 @@ std::vector<Check> twisting_columns()
     FemOptions options = inviscid(FemOptions::Integration::one_point);
     options.clamped_boundary_ids = {4};
     const Column c = twist_column(
-        std::make_unique<FemBody>(
-            "column", 0, box({{1., 1., 6.}}, {{0., 0., 3.}}, 1. / 8.), rubber,
-            options),
+        std::make_unique<FemBody>("column", 0,
+                                  box({{1., 1., 6.}}, {{0., 0., 3.}}, 1. / 8.),
+                                  rubber, options),
         false);
     report("one point, 1/8 m: ", c);
     checks.push_back({"one point, 1/8 m: twist over the limit", 1.,
@@ -222,8 +220,8 @@ std::vector<Check> twisting_columns()
 }
 
 const RegisterProblem a({"fem-spinning-plate",
-                         "a soft plate, ten turns at 50 rad/s",
-                         "extremes long", spinning_plate}),
+                         "a soft plate, ten turns at 50 rad/s", "extremes long",
+                         spinning_plate}),
     b({"twisting-column", "rubber column, cells and particles converge", "long",
        twisting_columns});
 } // namespace

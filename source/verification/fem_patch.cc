@@ -125,8 +125,8 @@ Eigen::VectorXd spectrum(const HexMesh &mesh, const FemOptions &options,
       x = x0;
       body.compute_forces(0., 1.);
     }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-             0.5 * (K + K.transpose()))
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 *
+                                                        (K + K.transpose()))
       .eigenvalues();
 }
 
@@ -150,8 +150,8 @@ std::vector<Check> modes()
     checks.push_back({"modes without energy, no control" + shape, 18.,
                       double(n_zero(spectrum(cell, none, false))), 0., "1",
                       "6 rigid and 12 hourglass modes"});
-    const Eigen::VectorXd held = spectrum(
-        cell, inviscid(FemOptions::Hourglass::stiffness), false);
+    const Eigen::VectorXd held =
+        spectrum(cell, inviscid(FemOptions::Hourglass::stiffness), false);
     checks.push_back({"modes without energy, stiffness control" + shape, 6.,
                       double(n_zero(held)), 0., "1", "rigid motions only"});
     // gamma of the cube is h, |h|^2 = 8: eigenvalue k |h|^2 = kappa rho c^2 L.

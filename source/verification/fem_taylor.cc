@@ -106,9 +106,8 @@ std::vector<Check> run()
     checks.push_back({at + "radius of the struck face at 12 us", 5.45e-3,
                       bars[k].early_radius, 0.05e-3, "m", "5.444 to 5.457 mm",
                       kind});
-    checks.push_back({at + "largest plastic strain", 0.,
-                      bars[k].plastic_strain, 0., "1", "2.5 to 3.3 published",
-                      Check::Kind::reported});
+    checks.push_back({at + "largest plastic strain", 0., bars[k].plastic_strain,
+                      0., "1", "2.5 to 3.3 published", Check::Kind::reported});
     checks.push_back({at + "energy residual", 0.01, bars[k].residual, 0., "1",
                       "energy balance", Check::Kind::at_most});
     checks.push_back({at + "kinetic energy at the start", 239.8,

@@ -38,9 +38,8 @@ public:
   double time() const { return world.integrator.time; }
   double strain() const
   {
-    return std::log((measure(cell(), "maximum x") -
-                     measure(cell(), "minimum x")) /
-                    10e-6);
+    return std::log(
+        (measure(cell(), "maximum x") - measure(cell(), "minimum x")) / 10e-6);
   }
   double stress(const int c) const { return cell().stress(c, 0); }
   double state(const std::string &name) const
@@ -127,8 +126,8 @@ void compare(std::vector<Check> &checks, const std::string &who,
                     specimen.state("effective plastic strain"), 2e-3 * exact[1],
                     "1", source});
   checks.push_back({who + ": temperature rise", exact[2] - T0,
-                    specimen.state("temperature") - T0,
-                    5e-3 * (exact[2] - T0), "K", source});
+                    specimen.state("temperature") - T0, 5e-3 * (exact[2] - T0),
+                    "K", source});
 }
 
 void rate_dependent(std::vector<Check> &checks)
@@ -144,20 +143,20 @@ void rate_dependent(std::vector<Check> &checks)
     p.C3 = 0.0028;
     p.C4 = 0.000115;
     p.melt_temperature = 1356.;
-    compare(checks, "Zerilli-Armstrong fcc",
-            std::make_shared<ZerilliArmstrongFcc>(
-                c, ZerilliArmstrongFlow<false>{p},
-                ThermalParameters{T0, 383., 0.9}, nullptr),
-            c,
-            {[p](const Point &x)
-             {
-               const double r = std::max(x.rate, 1e-12);
-               return p.C0 + p.C2 * std::sqrt(x.eps) *
-                                 std::exp(-p.C3 * x.T +
-                                          p.C4 * x.T * std::log(r));
-             },
-             one},
-            T0, 383., rate);
+    compare(
+        checks, "Zerilli-Armstrong fcc",
+        std::make_shared<ZerilliArmstrongFcc>(c, ZerilliArmstrongFlow<false>{p},
+                                              ThermalParameters{T0, 383., 0.9},
+                                              nullptr),
+        c,
+        {[p](const Point &x)
+         {
+           const double r = std::max(x.rate, 1e-12);
+           return p.C0 + p.C2 * std::sqrt(x.eps) *
+                             std::exp(-p.C3 * x.T + p.C4 * x.T * std::log(r));
+         },
+         one},
+        T0, 383., rate);
   }
   {
     const ElasticConstants c{7890., 207e9, 0.29};
@@ -179,8 +178,7 @@ void rate_dependent(std::vector<Check> &checks)
              {
                const double r = std::max(x.rate, 1e-12);
                return p.C0 +
-                      p.C1 * std::exp(-p.C3 * x.T +
-                                      p.C4 * x.T * std::log(r)) +
+                      p.C1 * std::exp(-p.C3 * x.T + p.C4 * x.T * std::log(r)) +
                       p.C5 * std::pow(std::max(x.eps, 1e-14), p.n);
              },
              one},
@@ -202,20 +200,20 @@ void rate_dependent(std::vector<Check> &checks)
       return 1. + p.pressure_coefficient * x.pressure * std::cbrt(x.J) -
              p.temperature_coefficient * (x.T - 300.);
     };
-    compare(checks, "Steinberg-Guinan",
-            std::make_shared<SteinbergGuinan>(
-                c, SteinbergGuinanFlow{p}, ThermalParameters{300., 885., 0.9},
-                nullptr),
-            c,
-            {[p, factor](const Point &x)
-             {
-               return std::min(p.yield_stress *
-                                   std::pow(1. + p.beta * x.eps, p.n),
-                               p.largest_yield_stress) *
-                      factor(x);
-             },
-             factor},
-            300., 885., rate);
+    compare(
+        checks, "Steinberg-Guinan",
+        std::make_shared<SteinbergGuinan>(c, SteinbergGuinanFlow{p},
+                                          ThermalParameters{300., 885., 0.9},
+                                          nullptr),
+        c,
+        {[p, factor](const Point &x)
+         {
+           return std::min(p.yield_stress * std::pow(1. + p.beta * x.eps, p.n),
+                           p.largest_yield_stress) *
+                  factor(x);
+         },
+         factor},
+        300., 885., rate);
   }
 }
 
@@ -291,9 +289,8 @@ void rubber(std::vector<Check> &checks)
       (lateral < 0. ? low : high) = b;
     }
     const double J = a * low * low;
-    const double exact =
-        K * std::log(J) +
-        G * std::pow(J, -5. / 3.) * 2. / 3. * (a * a - low * low);
+    const double exact = K * std::log(J) + G * std::pow(J, -5. / 3.) * 2. / 3. *
+                                               (a * a - low * low);
     checks.push_back({"neo-Hookean, log. strain " +
                           std::to_string(strain).substr(0, 3) + ": stress",
                       exact, specimen.stress(0), 2e-3 * exact, "Pa",

@@ -67,9 +67,8 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
     if (measure(body, "bonds broken") > 0.)
       failed_at = load;
   }
-  checks.push_back(
-      {who + ": load of first failure", expected, failed_at, 2. * step, "1",
-       source});
+  checks.push_back({who + ": load of first failure", expected, failed_at,
+                    2. * step, "1", source});
   const double broken = measure(body, "bonds broken");
   std::size_t left = 0;
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
@@ -88,9 +87,8 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
     most = std::max(most, bonds);
     after = measure(body, "bonds broken");
   }
-  checks.push_back({who + ": bonds after unloading", double(left),
-                    double(most), 0., "1", "irreversible",
-                    Check::Kind::at_most});
+  checks.push_back({who + ": bonds after unloading", double(left), double(most),
+                    0., "1", "irreversible", Check::Kind::at_most});
   checks.push_back({who + ": broken bonds after unloading", broken, after, 0.,
                     "1", "irreversible", Check::Kind::at_least});
 }
@@ -291,8 +289,7 @@ std::vector<Check> no_healing()
     checks.push_back({who + "shear of F, largest error", 0., error, 1e-9, "1",
                       "uniform deformation"});
     checks.push_back({who + "bonds over those of the start", 0.,
-                      n_bonds() / before, 0., "1", "",
-                      Check::Kind::reported});
+                      n_bonds() / before, 0., "1", "", Check::Kind::reported});
   }
   return checks;
 }
@@ -346,9 +343,8 @@ std::vector<Check> weak_particles()
   }
   return {{"particles that lost a direction", 10., double(weak.size()), 0., "1",
            "a sheet of 5 x 5 particles", Check::Kind::at_least},
-          {"their largest tension over yield", 0.,
-           std::max(tension, extra) / Y, 1e-9, "1", "no tension across a gap",
-           Check::Kind::at_most},
+          {"their largest tension over yield", 0., std::max(tension, extra) / Y,
+           1e-9, "1", "no tension across a gap", Check::Kind::at_most},
           {"stress along the sheet", expected, pressed,
            0.03 * std::abs(expected), "Pa", "K ln J - 2 Y/3: it flows"},
           {"their largest plastic strain", 0.05, strained, 0., "1",

@@ -45,7 +45,8 @@ Shearing shear(const double h, const double failure_strain)
                                     aluminium()),
       options));
   world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), SelfContactOptions(), MPI_COMM_WORLD));
+      "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
+      SelfContactOptions(), MPI_COMM_WORLD));
   world.distribute();
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   NodalState &n = body.nodes();

@@ -45,16 +45,16 @@ std::vector<Check> tension_bar()
     world.bodies.push_back(std::make_unique<SpgBody>(
         "bar", 0, make_box_cloud({{0, 0, 0}}, {{L, w, w}}, spacing), metal, o));
     world.couplings.push_back(std::make_unique<SelfContact>(
-        "debris", world.pointers(), SelfContactOptions(), MPI_COMM_WORLD));
+        "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
+        SelfContactOptions(), MPI_COMM_WORLD));
     world.distribute();
     auto &body = static_cast<SpgBody &>(*world.bodies[0]);
     NodalState &n = body.nodes();
     // The middle third is stretched, its ends pull, and the whole bar flies.
     for (std::size_t i = 0; i < n.n_owned; ++i)
-      n.velocity[i] =
-          vec(v * std::clamp(n.reference_position[i][0] / (L / 6.), -1., 1.) +
-                  3.,
-              -1., 2.);
+      n.velocity[i] = vec(
+          v * std::clamp(n.reference_position[i][0] / (L / 6.), -1., 1.) + 3.,
+          -1., 2.);
     world.integrator.initialize();
     EnergyWatch watch(world);
     const auto before = world.momenta();
@@ -108,9 +108,8 @@ std::vector<Check> tension_bar()
                                            [&](const Fragment &f)
                                            { return f.mass > 0.1 * mass; })),
                       0., "1", "torn in two"});
-    checks.push_back(
-        {at + "pieces' mass over the bar's", 1., piece_mass / mass, 1e-12, "1",
-         "failure keeps the mass"});
+    checks.push_back({at + "pieces' mass over the bar's", 1., piece_mass / mass,
+                      1e-12, "1", "failure keeps the mass"});
     checks.push_back({at + "momentum, change over m v", 0., change, 1e-12, "1",
                       "conservation"});
     checks.push_back({at + "momentum of the pieces, error over m v", 0.,
