@@ -26,6 +26,7 @@ PAPER = {
     ("zone", "60 mm"): "nearly identical to 30 mm",
 }
 ORDER = ("spacing", "friction", "failure-strain", "zone", "projectile",
+         "projectile-spg",
          "symmetry", "physics", "method", "projectile-taylor")
 
 

@@ -179,10 +179,12 @@ ImpactFacts find_impact(const std::vector<BodyFacts> &bodies)
   double yield = never;
   for (const BodyFacts &body : bodies)
     yield = std::min(yield, body.yield_stress);
-  impact.largest_strain =
-      yield == never
-          ? 0.
-          : std::min(std::log(4.), 0.5 * p.density * half * half / yield);
+  if (yield < never)
+  {
+    const double k = p.density * half * half / yield;
+    const double e = 0.5 * (std::sqrt(k * k + 4. * k) - k);
+    impact.largest_strain = std::min(std::log(4.), -std::log1p(-e));
+  }
   impact.strain_rate = half / impact.radius;
   return impact;
 }

@@ -43,10 +43,11 @@ struct ImpactFacts
   double speed = 0.;                      // relative [m/s]
   int axis = 2;                           // along which they meet
   double radius = 0.;                     // of the projectile across it [m]
-  /** Compression of the finest cells at the interface: the kinetic energy
-      density of the motion towards it, 1/2 rho (v/2)^2, turned into plastic
-      work at the lower yield stress, at the rate (v/2)/radius; at most ln 4,
-      a cell flattened to a quarter. Own estimate. */
+  /** Compression of the finest cells at the interface, which meets the bodies
+      at U = v/2: rho U^2 / Y = e^2 / (1 - e) for the engineering strain e there
+      (G. I. Taylor, Proc. R. Soc. A 194 (1948) 289), with the lower yield
+      stress Y; as logarithmic strain -ln(1 - e), at most ln 4, a cell flattened
+      to a quarter. It grows at the rate U/radius (own estimate). */
   double largest_strain = 0., strain_rate = 0.; // [1, 1/s]
 };
 
