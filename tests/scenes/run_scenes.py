@@ -372,6 +372,17 @@ class Scenes(unittest.TestCase):
             self.assertIn("cannot write", done.stdout)
             self.assertIn("No space left on device", done.stdout)
             self.assert_whole_results(run)
+            # A checkpoint larger than what is left.
+            shutil.rmtree(run)
+            done = sabot("run", BAR, "-o", run, "--quiet", "--set",
+                         "Bodies/block/Size=12 mm, 12 mm, 12 mm", "--set",
+                         "Bodies/block/Nodal spacing=1 mm", "--set",
+                         "Outputs/fields/Interval=1 s", "--set",
+                         "Checkpoint interval in steps=5")
+            self.assertEqual(done.returncode, 4, done.stdout)
+            self.assertIn("checkpoint", done.stdout)
+            self.assertIn("No space left on device", done.stdout)
+            self.assert_whole_results(run)
         finally:
             subprocess.run(["umount", out], check=True)
 
