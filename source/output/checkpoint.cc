@@ -297,6 +297,12 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
              {rank, block.n, block.size,
               sha256(block.bytes.data(), block.bytes.size()), block.name});
   std::string my_lines = lines.str();
+  // HDF5 crashes at the end of a program on a file that a full disk kept it
+  // from closing, so the room is looked for first.
+  double wanted = my_lines.size();
+  for (const StateBlock &block : blocks)
+    wanted += block.bytes.size() + 1024.; // with what describes a dataset
+  MPI_Allreduce(MPI_IN_PLACE, &wanted, 1, MPI_DOUBLE, MPI_SUM, communicator);
   if (rank != 0)
   {
     unsigned long length = my_lines.size();
@@ -320,9 +326,16 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
       errno = 0;
       bool good = true;
       {
-        const Hdf5Handle h5(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
-                                      H5P_DEFAULT, H5P_DEFAULT),
+        std::error_code unknown;
+        const fs::space_info space = fs::space(folder, unknown);
+        const bool has_room = unknown || space.available > wanted;
+        const Hdf5Handle h5(has_room
+                                ? H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
+                                            H5P_DEFAULT, H5P_DEFAULT)
+                                : -1,
                             H5Fclose);
+        if (!has_room)
+          errno = ENOSPC;
         good = h5 >= 0;
         // All ranks are heard to the end, even when the disk is full.
         for (int r = 0; r < n_ranks; ++r)

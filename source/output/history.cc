@@ -4,9 +4,6 @@
 #include "sabot/output/file_tools.h"
 #include "sabot/output/hdf5_tools.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <stdexcept>
 
 namespace sabot
@@ -36,45 +33,45 @@ void History::append(const std::string &name, const Measures &row)
 
 void History::write(const std::string &file) const
 {
+  // HDF5 builds the file in memory: after a write to a full disk it would keep
+  // a file that it cannot close, and crash on it when the program ends.
   const Hdf5Quiet quiet;
-  write_atomically(
-      file,
-      [&](const std::string &temporary)
-      {
-        errno = 0;
-        bool good = true;
-        {
-          const Hdf5Handle h5(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
-                                        H5P_DEFAULT, H5P_DEFAULT),
-                              H5Fclose);
-          good = h5 >= 0;
-          for (const auto &[name, table] : tables)
-          {
-            if (!good || table.columns.empty())
-              continue;
-            const hsize_t n = table.n_rows();
-            const Hdf5Handle type(row_type(table.columns), H5Tclose);
-            const Hdf5Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
-            const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE),
-                                        H5Pclose);
-            H5Pset_obj_track_times(properties, false);
-            const Hdf5Handle set(H5Dcreate2(h5, name.c_str(), type, space,
-                                            H5P_DEFAULT, properties,
-                                            H5P_DEFAULT),
-                                 H5Dclose);
-            good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL,
-                                        H5P_DEFAULT, table.values.data()) >= 0;
-          }
-          good = good && H5Fflush(h5, H5F_SCOPE_GLOBAL) >= 0;
-        }
-        if (!good)
-        {
-          const std::string reason =
-              errno != 0 ? std::strerror(errno) : "the write failed";
-          std::remove(temporary.c_str());
-          throw IOError("cannot write \"" + file + "\": " + reason);
-        }
-      });
+  std::string image;
+  bool good = true;
+  {
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    constexpr std::size_t increment = 1 << 20; // [bytes], of the memory
+    H5Pset_fapl_core(access, increment, false);
+    const Hdf5Handle h5(
+        H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+    good = h5 >= 0;
+    for (const auto &[name, table] : tables)
+    {
+      if (!good || table.columns.empty())
+        continue;
+      const hsize_t n = table.n_rows();
+      const Hdf5Handle type(row_type(table.columns), H5Tclose);
+      const Hdf5Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+      const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      H5Pset_obj_track_times(properties, false);
+      const Hdf5Handle set(H5Dcreate2(h5, name.c_str(), type, space,
+                                      H5P_DEFAULT, properties, H5P_DEFAULT),
+                           H5Dclose);
+      good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                  table.values.data()) >= 0;
+    }
+    good = good && H5Fflush(h5, H5F_SCOPE_GLOBAL) >= 0;
+    const ssize_t size = good ? H5Fget_file_image(h5, nullptr, 0) : -1;
+    good = size > 0;
+    if (good)
+    {
+      image.resize(size);
+      good = H5Fget_file_image(h5, &image[0], size) == size;
+    }
+  }
+  if (!good)
+    throw IOError("cannot write \"" + file + "\": HDF5 could not lay it out");
+  write_text(file, image);
 }
 
 void History::read(const std::string &file)

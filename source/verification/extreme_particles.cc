@@ -118,12 +118,15 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
   const double first = balance(world);
   const double end = world.integrator.time + 40e-6;
   double highest = first;
+  // While debris touches, central difference misjudges the energy of the
+  // penalty by O((omega dt)^2); what counts is the energy once it has parted.
   while (world.integrator.time < end)
   {
     world.advance(0.2);
     meeting.look();
     highest = std::max(highest, balance(world));
   }
+  const double last = balance(world);
   const auto after = world.momenta();
   double change = 0., twist = 0.;
   for (int d = 0; d < 3; ++d)
@@ -149,9 +152,11 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
   checks.push_back({who + "energy residual of the debris that meets", 0.01,
                     meeting.residual(), 0., "1", "energy balance",
                     Check::Kind::at_most});
-  checks.push_back({who + "energy gained by the debris", 0.,
-                    (highest - first) / first, 2e-3, "1",
-                    "self-contact makes no energy", Check::Kind::at_most});
+  checks.push_back({who + "energy gained by the debris", 0., last / first - 1.,
+                    1e-3, "1", "self-contact makes no energy",
+                    Check::Kind::at_most});
+  checks.push_back({who + "largest gain in between", 0., highest / first - 1.,
+                    0., "1", "", Check::Kind::reported});
   checks.push_back({who + "numbers", 1., double(is_finite(world)), 0., "1",
                     "no not-a-number"});
 }

@@ -7,6 +7,7 @@ import csv
 import glob
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -40,6 +41,23 @@ def folder(name):
 def result(path):
     with open(os.path.join(path, "result.json")) as file:
         return json.load(file)
+
+
+def fem_bar(size="5 mm, 5 mm, 5 mm", geometry="box", entry="Cell size",
+            value="1 mm"):
+    """The scene BAR as hexahedra, in a file of its own."""
+    os.makedirs(WORK, exist_ok=True)
+    with open(BAR) as file:
+        text = file.read()
+    text = text.replace("= SPG", "= FEM\n    set Geometry = " + geometry)
+    text = text.replace("set Nodal spacing    = 1 mm",
+                        "set %s = %s" % (entry, value))
+    if not size:
+        text = text.replace("set Size             = 5 mm, 5 mm, 5 mm", "")
+    path = os.path.join(WORK, "fem-bar.prm")
+    with open(path, "w") as file:
+        file.write(text)
+    return path
 
 
 class Scenes(unittest.TestCase):
@@ -258,6 +276,7 @@ class Scenes(unittest.TestCase):
 
     def test_files_that_cannot_be_read_are_named(self):
         os.makedirs(WORK, exist_ok=True)
+
         meshes = {"empty.msh": "", "text.msh": "no mesh at all\n",
                   "cut.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
                              "$Nodes\n8\n1 0 0 0\n2 1 0 0\n",
@@ -267,11 +286,7 @@ class Scenes(unittest.TestCase):
                 file.write(text)
         for name in list(meshes) + ["missing.msh"]:
             path = os.path.join(WORK, name)
-            done = sabot("check", BAR, "--set",
-                         "Bodies/block/Discretization=FEM", "--set",
-                         "Bodies/block/Geometry=file", "--set",
-                         "Bodies/block/Mesh file=" + path, "--set",
-                         "Quantities/speed/Type=length")
+            done = sabot("check", fem_bar("", "file", "Mesh file", path))
             self.assertEqual(done.returncode, 1, name + "\n" + done.stdout)
             self.assertIn("Bodies/block/Mesh file", done.stdout)
             self.assertIn(name, done.stdout)
@@ -294,12 +309,9 @@ class Scenes(unittest.TestCase):
     def test_a_step_above_the_limit_is_caught(self):
         # By the energy balance.
         out = folder("unstable")
-        fem = ("--set", "Bodies/block/Discretization=FEM", "--set",
-               "Bodies/block/Cell size=1 mm", "--set",
-               "Outputs/fields/Interval=0.1 ms", "--set",
-               "Quantities/speed/Type=length")
-        done = sabot("run", BAR, "-o", out, "--quiet", "--set",
-                     "Step factor=2", "--set", "End time=1 ms", *fem)
+        done = sabot("run", fem_bar(), "-o", out, "--quiet", "--set",
+                     "Step factor=2", "--set", "End time=1 ms", "--set",
+                     "Outputs/fields/Interval=0.1 ms")
         self.assertEqual(done.returncode, 2, done.stdout)
         r = result(out)
         self.assertEqual(r["status"], "failed")
@@ -308,49 +320,38 @@ class Scenes(unittest.TestCase):
     def test_what_is_no_number_any_more_is_named(self):
         # Steps far above the limit, and an energy balance that nothing breaks:
         # what remains is the place where the motion went wrong.
-        for name, settings in (
-                ("SPG", ()),
-                ("FEM", ("--set", "Bodies/block/Discretization=FEM", "--set",
-                         "Bodies/block/Cell size=1 mm"))):
+        for name, scene in (("SPG", BAR), ("FEM", fem_bar())):
             out = folder("no-number")
-            done = sabot("run", BAR, "-o", out, "--quiet", "--set",
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
                          "Step factor=2", "--set", "End time=2 ms", "--set",
                          "Energy residual limit=1000", "--set",
                          "Outputs/fields/Interval=1 ms", "--set",
-                         "Outputs/averages/Interval=1 ms", "--set",
-                         "Quantities/speed/Type=length", *settings)
+                         "Outputs/averages/Interval=1 ms")
             self.assertEqual(done.returncode, 2, name + done.stdout)
-            reason = result(out)["reason"]
-            self.assertRegex(reason, r"body block, (particle|cell) \d+",
-                             name)
+            self.assertRegex(result(out)["reason"],
+                             r"body block, (particle|cell) \d+", name)
 
     def test_a_full_disk_keeps_what_was_written(self):
-        # A file may not grow beyond a limit: as a full disk, without a mount.
-        def limited():
-            import resource
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, LIMIT))
-
-        whole = folder("disk-whole")
-        settings = ("--quiet", "--set", "End time=40 us", "--set",
-                    "Outputs/averages/Interval=0.05 us", "--set",
-                    "Outputs/fields/Interval=4 us")
-        done = sabot("run", BAR, "-o", whole, *settings)
-        self.assertEqual(done.returncode, 0, done.stdout)
-        size = os.path.getsize(os.path.join(whole, "history.h5"))
-        LIMIT = int(0.6 * size)
-        for name in os.listdir(whole):  # only the history meets the limit
-            if name.endswith(".vtu"):
-                self.assertLess(os.path.getsize(os.path.join(whole, name)),
-                                LIMIT)
+        # Files may not grow beyond a limit any more: as a full disk, without
+        # the right to mount one.
         out = folder("disk-full")
-        done = subprocess.run([SABOT, "run", BAR, "-o", out, *settings],
-                              stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT,
-                              universal_newlines=True, preexec_fn=limited,
-                              env=ENVIRONMENT, timeout=120)
-        self.assertEqual(done.returncode, 4, done.stdout)
-        self.assertIn("history.h5", done.stdout)
+        process = subprocess.Popen(
+            [SABOT, "run", BAR, "-o", out, "--quiet", "--set", "End time=5 ms",
+             "--set", "Outputs/averages/Interval=1 us", "--set",
+             "Outputs/fields/Interval=20 us"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            universal_newlines=True, env=ENVIRONMENT,
+            preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+        history = os.path.join(out, "history.h5")
+        while process.poll() is None and (
+                not os.path.exists(history) or
+                os.path.getsize(history) < 100000):
+            time.sleep(0.005)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (90000, 90000))
+        output = process.communicate(timeout=120)[0]
+        self.assertEqual(process.returncode, 4, output)
+        self.assertIn("history.h5", output)
+        self.assertIn("File too large", output)
         self.assert_whole_results(out)
 
     def test_a_full_file_system_keeps_what_was_written(self):
@@ -369,6 +370,17 @@ class Scenes(unittest.TestCase):
                          "Outputs/averages/Interval=1 us")
             self.assertEqual(done.returncode, 4, done.stdout)
             self.assertIn("cannot write", done.stdout)
+            self.assertIn("No space left on device", done.stdout)
+            self.assert_whole_results(run)
+            # A checkpoint larger than what is left.
+            shutil.rmtree(run)
+            done = sabot("run", BAR, "-o", run, "--quiet", "--set",
+                         "Bodies/block/Size=12 mm, 12 mm, 12 mm", "--set",
+                         "Bodies/block/Nodal spacing=1 mm", "--set",
+                         "Outputs/fields/Interval=1 s", "--set",
+                         "Checkpoint interval in steps=5")
+            self.assertEqual(done.returncode, 4, done.stdout)
+            self.assertIn("checkpoint", done.stdout)
             self.assertIn("No space left on device", done.stdout)
             self.assert_whole_results(run)
         finally:
