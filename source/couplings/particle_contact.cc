@@ -347,8 +347,12 @@ Measures ParticleContact::measure() const
   double penetration = penetration_over_spacing;
   MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
+  ExactSum work[2] = {contact_work, friction_work};
+  ExactSum::reduce({&work[0], &work[1]}, communicator);
   return {{"penetration max over spacing", "1", penetration},
-          {"initial penetration over spacing", "1", initial_over_spacing}};
+          {"initial penetration over spacing", "1", initial_over_spacing},
+          {"contact energy", "J", -work[0].value()},
+          {"friction energy", "J", -work[1].value()}};
 }
 
 void ParticleContact::visit_state(StateVisitor &visitor)

@@ -12,17 +12,21 @@ namespace sabot
 {
 namespace
 {
-/** Two prongs of 2 x 2 x 12 mm, 2 mm apart, on a common foot: one body. */
+/** Two prongs of 2 x 2 mm, 12 and 14 mm long and 2 mm apart, on a common foot:
+    one body. */
 HexMesh fork()
 {
   dealii::Triangulation<3> block, grid;
   dealii::GridGenerator::subdivided_hyper_rectangle(
-      block, {6, 2, 14}, {-3e-3, -1e-3, -2e-3}, {3e-3, 1e-3, 12e-3});
-  std::set<dealii::Triangulation<3>::active_cell_iterator> between;
+      block, {6, 2, 16}, {-3e-3, -1e-3, -2e-3}, {3e-3, 1e-3, 14e-3});
+  std::set<dealii::Triangulation<3>::active_cell_iterator> empty;
   for (const auto &cell : block.active_cell_iterators())
-    if (std::abs(cell->center()[0]) < 1e-3 && cell->center()[2] > 0.)
-      between.insert(cell);
-  dealii::GridGenerator::create_triangulation_with_removed_cells(block, between,
+  {
+    const auto x = cell->center();
+    if ((std::abs(x[0]) < 1e-3 && x[2] > 0.) || (x[0] < 0. && x[2] > 12e-3))
+      empty.insert(cell);
+  }
+  dealii::GridGenerator::create_triangulation_with_removed_cells(block, empty,
                                                                  grid);
   return extract_mesh(grid);
 }
@@ -69,7 +73,9 @@ std::vector<Check> prongs()
       for (std::size_t i = 0; i < n.n_owned; ++i)
       {
         const Vec X = n.reference_position[i];
-        if (X[2] < 11.5e-3 || std::abs(std::abs(X[0]) - 1e-3) > 1e-9)
+        // The shorter tip and what it meets.
+        if (std::abs(X[2] - 12e-3) > 1.1e-3 ||
+            std::abs(std::abs(X[0]) - 1e-3) > 1e-9)
           continue;
         if (X[0] < 0.)
           left = std::max(left, n.position[i][0]);
