@@ -47,6 +47,12 @@ void Contact::update_surfaces()
     for (const int b : {pair.faces_of, pair.nodes_of})
       if (surfaces[b].spacing == 0.)
         surfaces[b] = bodies[b]->contact_surface();
+  symmetry_planes.clear();
+  for (const ContactSurface &surface : surfaces)
+    for (const SymmetryPlane &plane : surface.symmetry_planes)
+      if (std::find(symmetry_planes.begin(), symmetry_planes.end(), plane) ==
+          symmetry_planes.end())
+        symmetry_planes.push_back(plane);
 }
 
 void Contact::update_search(const unsigned int, const double dt)
@@ -167,6 +173,7 @@ void Contact::search()
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
   touched_number.assign(halo.size(), -1);
+  slot_weight.assign(halo.size(), 0.);
 }
 
 std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
@@ -299,15 +306,8 @@ void Contact::add_forces(const double dt)
     Vec n;
     double geometric_depth;
     spread(group, f, projection, n, geometric_depth);
-    const auto &slots = touched_slots;
-    const auto &w = touched_weights;
-    double face_compliance = 0.;
-    Vec v = halo.velocity[group.slot];
-    for (std::size_t a = 0; a < slots.size(); ++a)
-    {
-      face_compliance += w[a] * w[a] / halo.inertia[slots[a]];
-      v -= w[a] * halo.velocity[slots[a]];
-    }
+    const double face_compliance = compliance();
+    const Vec v = halo.velocity[group.slot] - velocity_of_touched();
     const double depth =
         group.memory.effective_depth(geometric_depth, 2. * norm(v) * dt);
     if (depth <= 0.)
@@ -323,11 +323,8 @@ void Contact::add_forces(const double dt)
                                          group.shear_limit * area, dt);
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;
-    for (std::size_t a = 0; a < slots.size(); ++a)
-    {
-      normal_force[slots[a]] -= w[a] * fn;
-      friction_force[slots[a]] -= w[a] * ft;
-    }
+    push_touched(fn, normal_force);
+    push_touched(ft, friction_force);
     penetration_over_spacing =
         std::max(penetration_over_spacing, depth / group.spacing);
   }
@@ -438,5 +435,6 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
   touched_number.assign(halo.size(), -1);
+  slot_weight.assign(halo.size(), 0.);
 }
 } // namespace sabot

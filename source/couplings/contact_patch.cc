@@ -5,6 +5,18 @@
 
 namespace sabot
 {
+namespace
+{
+/** Mirror image of a direction: components of the set axes change sign. */
+Vec flipped(Vec v, const unsigned int axes)
+{
+  for (int d = 0; d < 3; ++d)
+    if (axes >> d & 1)
+      v[d] = -v[d];
+  return v;
+}
+} // namespace
+
 double Contact::patch_radius(const int nodes_of, const int faces_of) const
 {
   // A particle stands for a volume as wide as the spacing, not for a point:
@@ -21,22 +33,50 @@ void Contact::spread(const Group &group, const std::ptrdiff_t face,
                      const FaceProjection &projection, Vec &normal,
                      double &depth)
 {
-  touched_slots.assign(face_slots[face].begin(), face_slots[face].end());
-  touched_weights.assign(projection.weight.begin(), projection.weight.end());
+  touched.clear();
+  for (int a = 0; a < 4; ++a)
+    touched.push_back({face_slots[face][a], projection.weight[a], 0});
   normal = projection.normal;
   depth = -projection.gap;
-  if (group.patch_radius == 0. || !(projection.along < 0.))
-    return;
+  if (group.patch_radius > 0. && projection.along < 0.)
+    spread_over_patch(group, projection, normal, depth);
+}
 
-  // Areas of the nodes of all faces that look the same way, and the mean of
-  // their normals.
+void Contact::spread_over_patch(const Group &group,
+                                const FaceProjection &projection, Vec &normal,
+                                double &depth)
+{
+  // Nodes of all faces that look the same way, with their areas, the mean of
+  // the faces' normals, and the mirror images of both in planes of symmetry:
+  // there the half that is not modelled bears its part of the patch.
   constexpr double cosine = 0.5;
-  const Vec held = projection.face_normal;
-  std::vector<std::size_t> slots;
-  touched_area.clear();
-  touched_points.clear();
-  const Vec p = halo.position[group.slot];
-  const Vec centre = p - projection.along * held;
+  const double radius = group.patch_radius;
+  const Vec held = projection.face_normal, p = halo.position[group.slot],
+            centre = p - projection.along * held;
+  std::vector<SymmetryPlane> near;
+  for (const SymmetryPlane &plane : symmetry_planes)
+    if (std::abs(centre[plane.axis] - plane.coordinate) < radius)
+      near.push_back(plane);
+  const unsigned int n_images = 1u << near.size();
+  const auto axes_of = [&](const unsigned int image)
+  {
+    unsigned int axes = 0;
+    for (std::size_t i = 0; i < near.size(); ++i)
+      if (image >> i & 1)
+        axes |= 1u << near[i].axis;
+    return axes;
+  };
+  const auto image_of = [&](Vec x, const unsigned int image)
+  {
+    for (std::size_t i = 0; i < near.size(); ++i)
+      if (image >> i & 1)
+        x[near[i].axis] = 2. * near[i].coordinate - x[near[i].axis];
+    return x;
+  };
+
+  std::vector<Touched> patch;
+  patch_points.clear();
+  patch_areas.clear();
   Vec mean = {};
   for (std::size_t k = group.first_face; k < group.last_face; ++k)
   {
@@ -48,45 +88,80 @@ void Contact::spread(const Group &group, const std::ptrdiff_t face,
     if (dot(area, held) < cosine * size)
       continue;
     const Vec middle = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-    mean += cubic_spline(norm(middle - centre) / group.patch_radius) * area;
+    for (unsigned int image = 0; image < n_images; ++image)
+      mean += cubic_spline(norm(image_of(middle, image) - centre) / radius) *
+              flipped(area, axes_of(image));
     for (int a = 0; a < 4; ++a)
     {
       std::ptrdiff_t &number = touched_number[corner[a]];
       if (number < 0)
       {
-        number = slots.size();
-        slots.push_back(corner[a]);
-        touched_points.push_back(x[a]);
-        touched_area.push_back(0.);
+        number = patch.size();
+        patch.push_back({corner[a], 0., 0});
+        patch_points.push_back(x[a]);
+        patch_areas.push_back(0.);
       }
-      touched_area[number] += 0.25 * size;
+      patch_areas[number] += 0.25 * size;
     }
   }
-  for (const std::size_t slot : slots)
-    touched_number[slot] = -1;
+  for (const Touched &t : patch)
+    touched_number[t.slot] = -1;
+  const std::size_t n_real = patch.size();
+  for (unsigned int image = 1; image < n_images; ++image)
+    for (std::size_t a = 0; a < n_real; ++a)
+    {
+      patch.push_back({patch[a].slot, 0., axes_of(image)});
+      patch_points.push_back(image_of(patch_points[a], image));
+      patch_areas.push_back(patch_areas[a]);
+    }
   const double size = norm(mean);
   if (!(size > 0.))
     return;
   mean = (1. / size) * mean;
-  std::vector<double> weights;
-  if (!patch_weights(touched_points, touched_area, centre, mean,
-                     group.patch_radius, weights))
+  if (!patch_weights(patch_points, patch_areas, centre, mean, radius,
+                     patch_weight))
     return;
   // The gap to the same mean of the nodes that the force goes to, so that
   // force and gap belong to one energy; past a rim it is let go as before.
   Vec offset = p;
-  for (std::size_t a = 0; a < slots.size(); ++a)
-    offset -= weights[a] * touched_points[a];
+  for (std::size_t a = 0; a < patch.size(); ++a)
+    offset -= patch_weight[a] * patch_points[a];
   const double rim = projection.gap / projection.along;
   depth = std::min(1., std::max(0., rim)) * std::max(0., -dot(offset, mean));
   normal = mean;
-  touched_slots.clear();
-  touched_weights.clear();
-  for (std::size_t a = 0; a < slots.size(); ++a)
-    if (weights[a] != 0.)
+  touched.clear();
+  for (std::size_t a = 0; a < patch.size(); ++a)
+    if (patch_weight[a] != 0.)
     {
-      touched_slots.push_back(slots[a]);
-      touched_weights.push_back(weights[a]);
+      touched.push_back(patch[a]);
+      touched.back().weight = patch_weight[a];
     }
+}
+
+double Contact::compliance()
+{
+  // A node and its images move together: their weights add up.
+  double sum = 0.;
+  for (const Touched &t : touched)
+    slot_weight[t.slot] += t.weight;
+  for (const Touched &t : touched)
+    sum += t.weight * slot_weight[t.slot] / halo.inertia[t.slot];
+  for (const Touched &t : touched)
+    slot_weight[t.slot] = 0.;
+  return sum;
+}
+
+Vec Contact::velocity_of_touched() const
+{
+  Vec v = {};
+  for (const Touched &t : touched)
+    v += t.weight * flipped(halo.velocity[t.slot], t.mirrored);
+  return v;
+}
+
+void Contact::push_touched(const Vec force, AlignedVector<Vec> &forces) const
+{
+  for (const Touched &t : touched)
+    forces[t.slot] -= flipped(t.weight * force, t.mirrored);
 }
 } // namespace sabot

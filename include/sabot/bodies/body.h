@@ -22,6 +22,17 @@ struct StableStep
   GlobalIndex item = -1;                          // node, particle or cell
 };
 
+/** A plane across an axis on which a model is cut. */
+struct SymmetryPlane
+{
+  int axis;
+  double coordinate; // [m]
+  bool operator==(const SymmetryPlane &o) const
+  {
+    return axis == o.axis && coordinate == o.coordinate;
+  }
+};
+
 /** What other bodies may touch; indices are local. Faces are quadrilaterals
     with outward normal by the right-hand rule. */
 struct ContactSurface
@@ -32,8 +43,9 @@ struct ContactSurface
   /** Parallel to nodes: the part of a node that a model cut at symmetry planes
       holds, 1/2 on a plane, 1/4 on two; empty where all are whole. */
   std::vector<double> node_share;
-  double bulk_modulus = 0.;    // [Pa], for the penalty
-  double spacing = 0.;         // [m], typical node distance
+  std::vector<SymmetryPlane> symmetry_planes; // the same on every rank
+  double bulk_modulus = 0.;                   // [Pa], for the penalty
+  double spacing = 0.;                        // [m], typical node distance
   double yield_stress = 1e300; // [Pa], initial; infinite: does not yield
 };
 

@@ -81,11 +81,25 @@ private:
                               const double dt) const;
   double relative_speed(const Group &group, const std::ptrdiff_t face,
                         const FaceProjection &projection) const;
+  /** A node that another presses on, or its mirror image in planes of
+      symmetry across the axes of the bits. */
+  struct Touched
+  {
+    std::size_t slot;
+    double weight;
+    unsigned int mirrored;
+  };
   /** What a node presses on: the four nodes of the face that holds it or, of a
-      particle, those within its patch, as smooth surface. Sets touched_slots
-      and touched_weights, @p normal and @p depth. */
+      particle, those within its patch, as smooth surface. Sets touched,
+      @p normal and @p depth. */
   void spread(const Group &group, const std::ptrdiff_t face,
               const FaceProjection &projection, Vec &normal, double &depth);
+  void spread_over_patch(const Group &group, const FaceProjection &projection,
+                         Vec &normal, double &depth);
+  /** sum w^2/m of what is touched, its mean velocity, and the reaction. */
+  double compliance();
+  Vec velocity_of_touched() const;
+  void push_touched(const Vec force, AlignedVector<Vec> &forces) const;
   void update_surfaces();
 
   const std::vector<Body *> bodies;
@@ -100,10 +114,12 @@ private:
   std::vector<std::pair<int, int>> body_pairs;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
   // Work arrays of spread()
-  std::vector<std::size_t> touched_slots;
-  std::vector<double> touched_weights, touched_area;
-  std::vector<Vec> touched_points;
+  std::vector<Touched> touched;
+  std::vector<Vec> patch_points;
+  std::vector<double> patch_areas, patch_weight;
+  std::vector<double> slot_weight;            // per slot; 0
   std::vector<std::ptrdiff_t> touched_number; // per slot; -1
+  std::vector<SymmetryPlane> symmetry_planes;
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., travelled = 0.; // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;

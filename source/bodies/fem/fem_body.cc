@@ -92,7 +92,16 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
       cells(Hexahedra::make(name, options, this->material))
 {
   for (const unsigned int boundary : options.symmetry_boundary_ids)
-    symmetry_axes[boundary] = symmetry_axis(boundary);
+  {
+    const int axis = symmetry_axes[boundary] = symmetry_axis(boundary);
+    for (std::size_t f = 0; f < this->mesh.boundary_faces.size(); ++f)
+      if (this->mesh.boundary_id[f] == boundary)
+      {
+        symmetry_planes.push_back(
+            {axis, this->mesh.nodes[this->mesh.boundary_faces[f][0]][axis]});
+        break;
+      }
+  }
   const auto need = [&](const double limit, const std::string &variable,
                         const std::string &entry)
   {
@@ -197,10 +206,9 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     std::vector<double> capacity = cells->volume;
     for (double &c : capacity)
       c *= material->density() * material->specific_heat();
-    heat = std::make_unique<HeatConduction>(material->conductivity(),
-                                            cells->connectivity, capacity,
-                                            nodal_state, node_exchange,
-                                            communicator);
+    heat = std::make_unique<HeatConduction>(
+        material->conductivity(), cells->connectivity, capacity, nodal_state,
+        node_exchange, communicator);
   }
 }
 
@@ -227,7 +235,8 @@ void FemBody::update_topology(const unsigned int, const double time)
 bool FemBody::has_state(const std::string &variable) const
 {
   const auto &states = cells->states();
-  return std::any_of(states.begin(), states.end(), [&](const StateVariable &v)
+  return std::any_of(states.begin(), states.end(),
+                     [&](const StateVariable &v)
                      { return v.name == variable; });
 }
 

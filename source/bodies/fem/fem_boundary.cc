@@ -117,6 +117,7 @@ ContactSurface FemBody::contact_surface() const
     }
   surface.bulk_modulus = material->bulk_modulus();
   surface.spacing = typical_spacing;
+  surface.symmetry_planes = symmetry_planes;
   surface.yield_stress = material->initial_yield_stress();
   return surface;
 }

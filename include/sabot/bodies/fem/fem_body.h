@@ -105,6 +105,7 @@ private:
   std::vector<char> owned_cell;
   VelocityConstraints constraints;
   std::map<unsigned int, int> symmetry_axes; // of boundary ids
+  std::vector<SymmetryPlane> symmetry_planes;
   /** Symmetry planes through owned nodes that lie on any. */
   std::map<std::size_t, int> n_symmetry_planes;
   std::vector<std::array<std::size_t, 4>> boundary_faces;
