@@ -64,11 +64,12 @@ std::vector<Check> prongs()
     world.integrator.initialize();
     const double energy = world.total_energy();
     const auto before = world.momenta();
-    double least = 1., gain = 0.;
+    double least = 1., gain = 0., given = 0.;
     while (world.integrator.time < 60e-6)
     {
-      world.advance(0.9);
+      world.advance(0.5);
       gain = std::max(gain, world.total_energy() / energy - 1.);
+      given = std::max(given, -world.energies()[2] / energy);
       double left = -1., right = 1.;
       for (std::size_t i = 0; i < n.n_owned; ++i)
       {
@@ -92,9 +93,16 @@ std::vector<Check> prongs()
                         0., "m", "they would pass", Check::Kind::at_most});
       continue;
     }
+    // Both are turned, so that their highest nodes overlap before they touch.
     checks.push_back({"least gap of the tips over the spacing, above", -0.25,
                       least / 1e-3, 0., "1", "they do not pass",
                       Check::Kind::at_least});
+    for (const Measure &m : world.couplings[0]->measure())
+      if (m.name == "penetration max over spacing")
+        checks.push_back({"penetration over the spacing", 0.2, m.value, 0., "1",
+                          "closing at up to 240 m/s", Check::Kind::at_most});
+    checks.push_back({"energy given by the contact, largest", 0., given, 1e-6,
+                      "1", "it only takes", Check::Kind::at_most});
     checks.push_back({"least gap of the tips over the spacing, below", 0.05,
                       least / 1e-3, 0., "1", "they met", Check::Kind::at_most});
     checks.push_back({"momentum, change over one prong's", 0.,
