@@ -22,7 +22,8 @@ struct Bar
 };
 
 /** Quarter of the bar (R 3.2, L 32.4 mm, 227 m/s) on a fixed frictionless rigid
-    wall, all settings as they are by default. */
+    wall. All settings are the default ones but the step factor: at 0.9 bursts of
+    energy appear in the foot, where strains pass 2 (doc/theory-spg.md). */
 Bar strike(const double h)
 {
   const double R = 3.2e-3, L = 32.4e-3;
@@ -57,7 +58,7 @@ Bar strike(const double h)
   Bar result;
   while (world.integrator.time < 80e-6)
   {
-    world.advance(0.9);
+    world.advance(0.5);
     if (world.step % 50 == 0)
       result.energy_residual = std::max(
           result.energy_residual, std::abs(world.total_energy() / before - 1.));

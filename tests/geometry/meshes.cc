@@ -1,6 +1,8 @@
 #include "sabot/base/error.h"
+#include "sabot/geometry/carving.h"
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/mesh_import.h"
+#include "sabot/geometry/particle_cloud.h"
 #include "sabot/geometry/round_bodies.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <set>
 
 namespace
 {
@@ -262,6 +265,74 @@ TEST(MeshImport, says_what_is_wrong)
             std::string::npos);
   EXPECT_NE(message(write("bad.vtk", "nothing\n")).find("cannot read"),
             std::string::npos);
+}
+
+/** Integral of the outward normal over the boundary: 0 where it is closed. */
+std::array<double, 3> area(const HexMesh &mesh)
+{
+  std::array<double, 3> sum{{0., 0., 0.}};
+  for (const auto &f : mesh.boundary_faces)
+    for (int d = 0; d < 3; ++d)
+    {
+      const auto x = [&](const int a, const int c)
+      { return mesh.nodes[f[a]][(d + c) % 3]; };
+      sum[d] += 0.5 * ((x(2, 1) - x(0, 1)) * (x(3, 2) - x(1, 2)) -
+                       (x(2, 2) - x(0, 2)) * (x(3, 1) - x(1, 1)));
+    }
+  return sum;
+}
+
+TEST(Carving, the_parts_fill_the_body_and_share_their_nodes)
+{
+  const double R = 10e-3, r = 3e-3, L = 4e-3, h = 0.8e-3;
+  CylinderGrading grading;
+  grading.growth_ratio = 1.3;
+  grading.zone_radius = r;
+  const HexMesh whole = make_cylinder(R, L, 2, {{0., 0., 0.}}, h, 0, grading);
+  EXPECT_NEAR(volume(whole), M_PI * R * R * L, 1e-12 * volume(whole));
+  EXPECT_GT(measure_quality(whole).scaled_jacobian, 0.4);
+  ZoneShape zone;
+  zone.axis = 2;
+  zone.size = {{2. * r, 2. * r, 2. * L}};
+  const CarvedMesh parts = carve(whole, zone, 3, "Bodies/core/Centre");
+  // The zone is a cylinder of the exact volume, as its circle is a mesh line.
+  EXPECT_NEAR(volume(parts.zone), M_PI * r * r * L, 1e-12 * volume(whole));
+  EXPECT_NEAR(volume(parts.rest) + volume(parts.zone), volume(whole),
+              1e-12 * volume(whole));
+  for (const HexMesh *mesh : {&parts.rest, &parts.zone})
+    for (const double a : area(*mesh))
+      EXPECT_NEAR(a, 0., 1e-12 * R * R);
+  std::set<std::array<double, 3>> of_rest(parts.rest.nodes.begin(),
+                                          parts.rest.nodes.end()),
+      shared, on_interface;
+  for (const auto &x : parts.zone.nodes)
+    if (of_rest.count(x) > 0)
+      shared.insert(x);
+  for (std::size_t f = 0; f < parts.zone.boundary_faces.size(); ++f)
+    if (parts.zone.boundary_id[f] == 3)
+      for (const GlobalIndex a : parts.zone.boundary_faces[f])
+        on_interface.insert(parts.zone.nodes[a]);
+  EXPECT_EQ(shared, on_interface);
+  EXPECT_EQ(parts.rest.nodes.size() + parts.zone.nodes.size(),
+            whole.nodes.size() + shared.size());
+  // Particles have the mass of the cells they replace.
+  double sum = 0.;
+  for (const double v : make_mesh_cloud(parts.zone).volume)
+    sum += v;
+  EXPECT_NEAR(sum, volume(parts.zone), 1e-12 * volume(whole));
+}
+
+TEST(Carving, an_empty_part_is_refused)
+{
+  BoxSpecification b;
+  b.size = {{4., 4., 4.}};
+  b.cell_size = 1.;
+  const HexMesh mesh = make_graded_box(b);
+  ZoneShape zone;
+  zone.size = {{10., 10., 10.}};
+  EXPECT_THROW(carve(mesh, zone, 6, "a"), InputError);
+  zone.centre = {{20., 0., 0.}};
+  EXPECT_THROW(carve(mesh, zone, 6, "a"), InputError);
 }
 
 TEST(MeshQuality, sees_an_inverted_cell)

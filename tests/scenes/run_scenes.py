@@ -6,6 +6,7 @@ Scenes on several ranks, results and files, bad input, signals, exit codes.
 import csv
 import glob
 import json
+import math
 import os
 import shutil
 import signal
@@ -111,6 +112,35 @@ class Scenes(unittest.TestCase):
             self.assertAlmostEqual(r["bodies"]["projectile"]["mass"], 13.6e-3,
                                    delta=1e-6)
         self.assertEqual(histories[0], histories[1])
+
+    def test_a_core_carved_from_a_cylinder_on_1_2_and_3_ranks(self):
+        scene = os.path.join(SOURCE, "tests/scenes/core.prm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("core%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        self.assertLess(r["energy_residual_max"], 0.01)
+        quarter = 0.25 * math.pi * 4e-3 * 7830.
+        self.assertAlmostEqual(r["bodies"]["core"]["mass"],
+                               quarter * 3e-3 ** 2, delta=1e-12)
+        self.assertAlmostEqual(r["bodies"]["target"]["mass"],
+                               quarter * (8e-3 ** 2 - 3e-3 ** 2), delta=1e-12)
+        self.assertGreater(r["bodies"]["core"]["plastic_strain_max"], 0.1)
+        for override, expected in (
+                ("Bodies/core/Nodal spacing=2 mm", "nodes of cells of 0.8 mm"),
+                ("Bodies/core/Centre=50 mm, 0 mm, 0 mm", "no cell"),
+                ("Bodies/core/Sector=half", "has no effect"),
+                ("Bodies/core/Symmetry faces=side", "one plane"),
+                ("Bodies/target/Core radius=2 mm", "has no effect")):
+            done = sabot("check", scene, "--set", override)
+            self.assertEqual(done.returncode, 1, override + done.stdout)
+            self.assertIn(expected, done.stdout)
 
     def test_particles_strike_particles_on_1_2_and_3_ranks(self):
         histories = []
