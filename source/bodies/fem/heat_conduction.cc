@@ -1,7 +1,6 @@
 #include "sabot/bodies/fem/heat_conduction.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/exact_sum.h"
+#include "sabot/bodies/conduction_solver.h"
 #include "sabot/kernels/vec.h"
 
 #include <algorithm>
@@ -118,16 +117,6 @@ void HeatConduction::assemble(const NodalState &nodes)
   }
 }
 
-double HeatConduction::dot(const std::vector<double> &a,
-                           const std::vector<double> &b) const
-{
-  ExactSum sum;
-  for (std::size_t i = 0; i < n_owned; ++i)
-    sum.add(a[i] * b[i]);
-  ExactSum::reduce({&sum}, communicator);
-  return sum.value();
-}
-
 void HeatConduction::multiply(const double dt, std::vector<double> &x,
                               std::vector<double> &product) const
 {
@@ -146,37 +135,19 @@ void HeatConduction::solve(const double dt, const std::vector<double> &right,
                            std::vector<double> &x)
 {
   // Everything is scaled by dt over the largest capacity: entries of order 1.
-  std::vector<double> diagonal(n_owned), r = right, z(n_owned), p(n_nodes, 0.),
-                                         product(n_owned);
+  std::vector<double> diagonal(n_owned);
   for (std::size_t i = 0; i < n_owned; ++i)
   {
     std::size_t k = row_start[i];
     while (column[k] != i)
       ++k;
     diagonal[i] = (nodal_capacity[i] + dt * conductance[k]) / largest_capacity;
-    x[i] = 0.;
-    p[i] = z[i] = r[i] / diagonal[i];
   }
-  double rz = dot(r, z);
-  // Temperatures to 1e-9 of the largest change, or to 1e-9 K of one node.
-  const double limit = 1e-18 * std::max(rz, 1.);
-  for (n_iterations = 0; rz > limit; ++n_iterations)
-  {
-    if (n_iterations > 10000 || !std::isfinite(rz))
-      throw PhysicsError("heat conduction does not converge");
-    multiply(dt, p, product);
-    const double alpha = rz / dot(p, product);
-    for (std::size_t i = 0; i < n_owned; ++i)
-    {
-      x[i] += alpha * p[i];
-      r[i] -= alpha * product[i];
-      z[i] = r[i] / diagonal[i];
-    }
-    const double next = dot(r, z), beta = next / rz;
-    rz = next;
-    for (std::size_t i = 0; i < n_owned; ++i)
-      p[i] = z[i] + beta * p[i];
-  }
+  n_iterations = solve_conduction(
+      diagonal, right,
+      [&](std::vector<double> &p, std::vector<double> &product)
+      { multiply(dt, p, product); },
+      x, communicator);
 }
 
 void HeatConduction::advance(const NodalState &nodes, const double dt,

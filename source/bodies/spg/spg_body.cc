@@ -27,6 +27,11 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
     throw InputError("Bodies/" + name + "/Critical effective plastic strain",
                      "the body's material has no effective plastic strain; "
                      "use a law with plasticity or remove the entry");
+  if (options.conducts_heat && !(this->material->conductivity() > 0.))
+    throw InputError("Bodies/" + name + "/Heat conduction",
+                     "the body's material has no temperature or no thermal "
+                     "conductivity; set \"Thermal conductivity\" of a law "
+                     "with temperature, for example 167 W/m/K");
   for (unsigned int face = 0; face < ParticleCloud::n_faces; ++face)
     if (options.symmetry_faces & 1u << face &&
         (face >= face_axis.size() || face_axis[face] < 0))
@@ -127,6 +132,27 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   std::fill(std::begin(batch.return_factor), std::end(batch.return_factor), 1.);
   std::fill(std::begin(batch.extra_square), std::end(batch.extra_square), 0.);
   set_up_kernel();
+  if (options.conducts_heat)
+    set_up_conduction();
+}
+
+void SpgBody::set_up_conduction()
+{
+  std::vector<double> capacity = reference_volume;
+  for (double &c : capacity)
+    c *= material->density() * material->specific_heat();
+  heat = std::make_unique<ParticleConduction>(
+      material->conductivity(),
+      ParticleConduction::Cloud{bonds, node_exchange, kernel_position,
+                                moment_inverse, kernel_volume, weak},
+      std::move(capacity), communicator);
+}
+
+void SpgBody::conduct_heat(const double time)
+{
+  heat->advance(time - last_conduction,
+                const_cast<double *>(state_array("temperature")));
+  last_conduction = time;
 }
 
 double SpgBody::local_spacing(const std::size_t i) const

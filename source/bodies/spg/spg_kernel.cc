@@ -45,7 +45,7 @@ void SpgBody::prepare_kernel()
               : compute_shape_gradients<TensorKernel>();
 }
 
-void SpgBody::update_topology(const unsigned int step, const double)
+void SpgBody::update_topology(const unsigned int step, const double time)
 {
   // Regular updates where something has deformed; at once where a volume has
   // changed by half or a bond fails. All ranks must agree.
@@ -60,6 +60,8 @@ void SpgBody::update_topology(const unsigned int step, const double)
   if (options.stabilization == Stabilization::velocity_smoothing &&
       step % options.smoothing_interval == 0)
     smooth_velocities();
+  if (heat && time >= last_conduction + options.conduction_interval)
+    conduct_heat(time);
 }
 
 bool SpgBody::has_strained() const

@@ -87,6 +87,13 @@ void SpgOptions::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry("Quadratic bulk viscosity", "1.5",
                     QuantityPattern(Dimension::none, 0., 10.),
                     "Coefficient of rho h^2 (div v)^2 in compression.");
+  prm.declare_entry("Heat conduction", "false", dealii::Patterns::Bool(),
+                    "Implicit conduction between bonded particles, surfaces "
+                    "and cracks insulated. Needs a law with temperature and "
+                    "conductivity.");
+  prm.declare_entry("Conduction interval", "1 us",
+                    QuantityPattern(Dimension::time, 0., 1e3),
+                    "Time between conduction steps.");
 }
 
 namespace
@@ -154,6 +161,8 @@ SpgOptions SpgOptions::parse(const dealii::ParameterHandler &prm,
   o.critical_stretch = get_quantity(prm, "Critical stretch");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
+  o.conducts_heat = prm.get_bool("Heat conduction");
+  o.conduction_interval = get_quantity(prm, "Conduction interval");
 
   refuse_unused(prm, path, "Critical effective plastic strain",
                 o.critical_effective_plastic_strain, never, "Failure criterion",

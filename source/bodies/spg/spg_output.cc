@@ -207,6 +207,8 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visitor.visit_value("initial calibration", initial_calibration);
   visitor.visit_value("last calibration", last_calibration);
   visitor.visit_value("calibrated bound", calibrated_bound);
+  if (heat)
+    visitor.visit_value("last conduction", last_conduction);
   visitor.visit_value("kernel updates", n_updates);
   visitor.visit_value("fallbacks", n_fallback);
   visitor.visit_value("largest change", largest_change);

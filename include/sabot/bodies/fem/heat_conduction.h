@@ -20,10 +20,8 @@ namespace sabot
  * comes back as the mean over a cell's nodes. No heat is gained or lost, and
  * without conduction nothing is smoothed.
  *
- * Conjugate gradients with the diagonal as preconditioner: at the steps of
- * explicit dynamics k dt/(rho c h^2) is far below 1 and a few iterations do.
- * Rows are summed in global order and dot products exactly, so that the result
- * does not depend on the number of ranks.
+ * Solved by conjugate gradients (conduction_solver.h). Rows are summed in global
+ * order, so that the result does not depend on the number of ranks.
  */
 class HeatConduction
 {
@@ -50,7 +48,6 @@ private:
                 std::vector<double> &product) const;
   void solve(const double dt, const std::vector<double> &right,
              std::vector<double> &x);
-  double dot(const std::vector<double> &a, const std::vector<double> &b) const;
 
   const double conductivity;
   const Cells &cells;

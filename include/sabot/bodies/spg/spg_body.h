@@ -5,6 +5,7 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/particle_conduction.h"
 #include "sabot/bodies/spg/second_gradient.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/velocity_constraints.h"
@@ -131,6 +132,10 @@ private:
   // spg_search.cc
   void search_neighbors();
 
+  // spg_body.cc
+  void set_up_conduction();
+  void conduct_heat(const double time);
+
   // spg_failure.cc
   void update_failure_measure();
   /** Mark in failed[] the bonds whose criteria are met now. Collective.
@@ -232,6 +237,8 @@ private:
   std::vector<StateVariable> state_variables;
   std::size_t n_states = 0;
   std::unique_ptr<SecondGradient> second_gradient;
+  std::unique_ptr<ParticleConduction> heat; // only where asked for
+  double last_conduction = 0.;              // [s]
 
   /** Work arrays of one batch. */
   struct Batch

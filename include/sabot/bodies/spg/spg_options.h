@@ -67,6 +67,8 @@ struct SpgOptions
   double critical_stretch = 1.0;
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
+  bool conducts_heat = false;
+  double conduction_interval = 1e-6;                    // [s]
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   // Bits as in ParticleCloud::on_face
   std::uint32_t symmetry_faces = 0, clamped_faces = 0;

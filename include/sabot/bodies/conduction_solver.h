@@ -1,0 +1,29 @@
+#ifndef sabot_bodies_conduction_solver_h
+#define sabot_bodies_conduction_solver_h
+
+#include <mpi.h>
+
+#include <functional>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * Conjugate gradients with the diagonal as preconditioner for the symmetric
+ * positive system A x = right of a step of implicit heat conduction, scaled to
+ * entries of order 1. At the steps of explicit dynamics k dt/(rho c h^2) is far
+ * below 1 and a few iterations do. Dot products are exact sums, so that the
+ * result does not depend on the number of ranks if @p multiply sums its rows in
+ * global order.
+ * @param multiply  product = A x on owned entries; sets the ghosts of x first
+ * @param x         [owned, then ghosts], solution on owned entries
+ * @return number of iterations. Collective. Throws PhysicsError.
+ */
+unsigned int solve_conduction(
+    const std::vector<double> &diagonal, const std::vector<double> &right,
+    const std::function<void(std::vector<double> &x,
+                             std::vector<double> &product)> &multiply,
+    std::vector<double> &x, MPI_Comm communicator);
+} // namespace sabot
+
+#endif
