@@ -161,6 +161,7 @@ void Contact::search()
           std::max(group.patch_radius, patch_radius(body, other));
     }
     group.last_face = face_of_group.size();
+    group.share = c[first].share;
     group.stiffness =
         c[first].share * options.stiffness_scale * modulus * group.spacing;
     group.shear_limit =
@@ -173,7 +174,6 @@ void Contact::search()
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
   touched_number.assign(halo.size(), -1);
-  slot_weight.assign(halo.size(), 0.);
 }
 
 std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
@@ -306,7 +306,7 @@ void Contact::add_forces(const double dt)
     Vec n;
     double geometric_depth;
     spread(group, f, projection, n, geometric_depth);
-    const double face_compliance = compliance();
+    const double face_compliance = compliance(group);
     const Vec v = halo.velocity[group.slot] - velocity_of_touched();
     const double depth =
         group.memory.effective_depth(geometric_depth, 2. * norm(v) * dt);
@@ -377,10 +377,11 @@ void Contact::visit_state(StateVisitor &visitor)
   std::vector<NodeKey> face_nodes;
   for (const Group &group : groups)
   {
-    saved.push_back(
-        {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
-         group.stiffness, group.spacing, group.area, group.shear_limit,
-         group.area_vector, group.memory, group.wake, group.patch_radius});
+    saved.push_back({halo.key(group.slot),
+                     std::int64_t(group.last_face - group.first_face),
+                     group.stiffness, group.spacing, group.area,
+                     group.shear_limit, group.area_vector, group.memory,
+                     group.wake, group.patch_radius, group.share});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));
@@ -421,6 +422,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     group.memory = from.memory;
     group.wake = from.wake;
     group.patch_radius = from.patch_radius;
+    group.share = from.share;
     for (std::size_t f = group.first_face; f < group.last_face; ++f)
     {
       std::array<std::size_t, 4> slots;
@@ -435,6 +437,5 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
   touched_number.assign(halo.size(), -1);
-  slot_weight.assign(halo.size(), 0.);
 }
 } // namespace sabot

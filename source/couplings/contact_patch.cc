@@ -138,17 +138,14 @@ void Contact::spread_over_patch(const Group &group,
     }
 }
 
-double Contact::compliance()
+double Contact::compliance(const Group &group) const
 {
-  // A node and its images move together: their weights add up.
+  // An image stands for the node of the other half, whose mass is that of its
+  // own; of a particle on the plane only its share presses here.
   double sum = 0.;
   for (const Touched &t : touched)
-    slot_weight[t.slot] += t.weight;
-  for (const Touched &t : touched)
-    sum += t.weight * slot_weight[t.slot] / halo.inertia[t.slot];
-  for (const Touched &t : touched)
-    slot_weight[t.slot] = 0.;
-  return sum;
+    sum += t.weight * t.weight / halo.inertia[t.slot];
+  return group.patch_radius > 0. ? sum / group.share : sum;
 }
 
 Vec Contact::velocity_of_touched() const

@@ -53,6 +53,7 @@ private:
     double wake = 0.;
     /** Radius over which a particle presses [m]; 0: at a point. */
     double patch_radius = 0.;
+    double share = 1.; // ContactSurface::node_share
   };
   /** A group as a checkpoint holds it; the nodes of its faces stand apart. */
   struct SavedGroup
@@ -62,7 +63,7 @@ private:
     double stiffness, spacing, area, shear_limit;
     Vec area_vector;
     ContactMemory memory;
-    double wake, patch_radius;
+    double wake, patch_radius, share;
   };
   void restore_groups(const std::vector<SavedGroup> &saved,
                       const std::vector<NodeKey> &face_nodes);
@@ -97,7 +98,7 @@ private:
   void spread_over_patch(const Group &group, const FaceProjection &projection,
                          Vec &normal, double &depth);
   /** sum w^2/m of what is touched, its mean velocity, and the reaction. */
-  double compliance();
+  double compliance(const Group &group) const;
   Vec velocity_of_touched() const;
   void push_touched(const Vec force, AlignedVector<Vec> &forces) const;
   void update_surfaces();
@@ -117,7 +118,6 @@ private:
   std::vector<Touched> touched;
   std::vector<Vec> patch_points;
   std::vector<double> patch_areas, patch_weight;
-  std::vector<double> slot_weight;            // per slot; 0
   std::vector<std::ptrdiff_t> touched_number; // per slot; -1
   std::vector<SymmetryPlane> symmetry_planes;
   unsigned int surface_version = 0; // sum over bodies at the last search
