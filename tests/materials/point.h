@@ -45,7 +45,6 @@ struct Point
     std::vector<double *> states;
     for (double &value : state)
       states.push_back(&value);
-    const double extra = 0.;
     sabot::MaterialBatch batch;
     batch.n = 1;
     batch.dt = dt;
@@ -56,7 +55,6 @@ struct Point
     }
     batch.jacobian = &jacobian;
     batch.states = states.data();
-    batch.extra_square = &extra;
     batch.return_factor = &theta;
     batch.plastic_work = &work;
     batch.viscous_pressure = &viscous_pressure;
