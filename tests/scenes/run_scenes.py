@@ -747,8 +747,8 @@ class Scenes(unittest.TestCase):
             r = result(out)
             speeds.append(r["quantities"]["residual velocity"]["value"])
             self.assertGreater(r["quantities"]["penetration depth"]["value"],
-                               0.01)
-        # Debris amplifies round-off: 438.9 and 439.5 m/s.
+                               0.008)
+        # Debris amplifies round-off.
         self.assertAlmostEqual(speeds[0], speeds[1], delta=0.01 * speeds[1])
 
     def test_a_study_passes_a_signal_on_and_goes_on_later(self):
