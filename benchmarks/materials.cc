@@ -21,8 +21,8 @@ void run(benchmark::State &bench, const Make &make, const bool gruneisen)
         MieGruneisenParameters{2700., 5386., 1.339, 1.99, 0.});
   const auto law = make(eos);
   constexpr std::size_t n = max_batch_points;
-  double stress[6][n] = {}, strain[6][n] = {}, jacobian[n], factor[n], work[n],
-         viscous[n] = {}, stiffening[n], F[9][n] = {};
+  double stress[6][n] = {}, strain[6][n] = {}, jacobian[n], extra[n] = {},
+         factor[n], work[n], viscous[n] = {}, stiffening[n], F[9][n] = {};
   std::vector<std::vector<double>> states;
   std::vector<double *> views;
   for (const StateVariable &v : law->state_variables())
@@ -40,6 +40,7 @@ void run(benchmark::State &bench, const Make &make, const bool gruneisen)
   }
   batch.jacobian = jacobian;
   batch.states = views.data();
+  batch.extra_square = extra;
   batch.return_factor = factor;
   batch.plastic_work = work;
   batch.viscous_pressure = viscous;

@@ -44,7 +44,8 @@ void HardeningPlasticity::update_deviator(const MaterialBatch &b,
       xi[c] = b.stress[c][k] - (kinematic ? b.state(1 + c)[k] : 0.);
     const double q =
         std::sqrt(1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
-                         2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])));
+                         2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
+                  b.extra_square[k]);
     std::size_t i = 0;
     while (i + 1 < pieces.size() && eps[k] >= pieces[i + 1].strain)
       ++i;

@@ -23,7 +23,7 @@ double find_yield_stress(const Material &material)
   for (double &state : states)
     pointers.push_back(&state);
   double strain[6] = {0., 0., 0., 1e-4, 0., 0.}, stress[6] = {};
-  double jacobian = 1., factor = 1., work = 0.;
+  double jacobian = 1., extra = 0., factor = 1., work = 0.;
   MaterialBatch point;
   point.n = 1;
   point.dt = 1e-7;
@@ -34,6 +34,7 @@ double find_yield_stress(const Material &material)
   }
   point.jacobian = &jacobian;
   point.states = pointers.data();
+  point.extra_square = &extra;
   point.return_factor = &factor;
   point.plastic_work = &work;
   constexpr int n_steps = 5000; // to a shear strain of one half

@@ -45,6 +45,7 @@ struct Point
     std::vector<double *> states;
     for (double &value : state)
       states.push_back(&value);
+    const double extra = 0.;
     sabot::MaterialBatch batch;
     batch.n = 1;
     batch.dt = dt;
@@ -55,6 +56,7 @@ struct Point
     }
     batch.jacobian = &jacobian;
     batch.states = states.data();
+    batch.extra_square = &extra;
     batch.return_factor = &theta;
     batch.plastic_work = &work;
     batch.viscous_pressure = &viscous_pressure;

@@ -144,7 +144,8 @@ void RateDependentPlasticity<Flow>::update_deviator(const MaterialBatch &b,
     const double x = b.stress[0][k], y = b.stress[1][k], z = b.stress[2][k],
                  xy = b.stress[3][k], yz = b.stress[4][k], xz = b.stress[5][k];
     const double q = std::sqrt(
-        1.5 * (x * x + y * y + z * z + 2. * (xy * xy + yz * yz + xz * xz)));
+        1.5 * (x * x + y * y + z * z + 2. * (xy * xy + yz * yz + xz * xz)) +
+        b.extra_square[k]);
     b.return_factor[k] = 1.;
     b.plastic_work[k] = 0.;
     // The power laws are for points that may yield.

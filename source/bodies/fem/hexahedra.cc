@@ -13,6 +13,8 @@ namespace sabot
 {
 namespace
 {
+/** Hexahedra have no stress beside the stress. */
+const double no_extra[max_batch_points] = {};
 /** Arrays of points end on a cache line. */
 constexpr std::size_t padding = 8;
 } // namespace
@@ -150,9 +152,9 @@ void Hexahedra::update_points(const std::size_t begin, const std::size_t m,
     const std::size_t k = point - begin;
     double step = batch.step[k];
     if (stiffens)
-      step /= std::sqrt(
-          std::max(1., *std::max_element(&batch.stiffening[k],
-                                         &batch.stiffening[k] + n_points)));
+      step /= std::sqrt(std::max(
+          1., *std::max_element(&batch.stiffening[k],
+                                &batch.stiffening[k] + n_points)));
     note_step(point / n_points, step);
   }
 }
@@ -191,6 +193,7 @@ void Hexahedra::update_stress(const std::size_t begin, const std::size_t m,
   points.jacobian = batch.jacobian;
   std::copy(stress, stress + 6, points.stress);
   points.states = batch_states.data();
+  points.extra_square = no_extra;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
   if (material->needs_viscous_pressure())

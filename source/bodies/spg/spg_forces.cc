@@ -251,6 +251,7 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   points.jacobian = batch.jacobian;
   std::copy(stress, stress + 6, points.stress);
   points.states = states.data();
+  points.extra_square = batch.extra_square;
   points.return_factor = batch.return_factor;
   points.plastic_work = batch.plastic_work;
   if (material->needs_viscous_pressure())
@@ -273,25 +274,6 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
   if (!stiffening.empty())
     points.stiffening = &stiffening[begin];
   material->update(points);
-
-  // What the stabilisation holds yields as a stress of its own: it shrinks with
-  // the deviator, whose consistent tangent it feels, and stays below the flow
-  // stress, that of the step or, where the mean is elastic, the initial one.
-  const double initial_yield = material->initial_yield_stress();
-  for (std::size_t k = 0; k < m; ++k)
-  {
-    double limit = initial_yield;
-    if (batch.return_factor[k] < 1.)
-    {
-      double s[6];
-      for (int c = 0; c < 6; ++c)
-        s[c] = stress[c][k];
-      limit = von_mises(s);
-    }
-    const double held = std::sqrt(batch.extra_square[k]);
-    if (held * batch.return_factor[k] > limit)
-      batch.return_factor[k] = limit / held;
-  }
 
   // A particle that lost a direction carries no tension across the gap.
   for (std::size_t k = 0; k < m; ++k)
