@@ -66,7 +66,7 @@ Shearing shear(const double h, const double failure_strain)
   }
   world.integrator.initialize();
   double work = 0.;
-  const double distance = 2.5e-3; // of the ends, relative
+  const double distance = 7e-3; // of the ends, relative: failed by then
   while (2. * v * world.integrator.time < distance)
   {
     const double dt = world.advance(0.8);
