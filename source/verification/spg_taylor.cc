@@ -22,8 +22,8 @@ struct Bar
 };
 
 /** Quarter of the bar (R 3.2, L 32.4 mm, 227 m/s) on a fixed frictionless rigid
-    wall. All settings are the default ones but the step factor: at 0.9 bursts of
-    energy appear in the foot, where strains pass 2 (doc/theory-spg.md). */
+    wall. All settings are the default ones but the step factor: at 0.9 bursts
+   of energy appear in the foot, where strains pass 2 (doc/theory-spg.md). */
 Bar strike(const double h)
 {
   const double R = 3.2e-3, L = 32.4e-3;

@@ -20,8 +20,8 @@ namespace sabot
  * comes back as the mean over a cell's nodes. No heat is gained or lost, and
  * without conduction nothing is smoothed.
  *
- * Solved by conjugate gradients (conduction_solver.h). Rows are summed in global
- * order, so that the result does not depend on the number of ranks.
+ * Solved by conjugate gradients (conduction_solver.h). Rows are summed in
+ * global order, so that the result does not depend on the number of ranks.
  */
 class HeatConduction
 {
