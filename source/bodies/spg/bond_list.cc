@@ -221,6 +221,7 @@ void BondList::connect(const Rows &rows,
   neighbor.swap(new_neighbor);
   residual.swap(new_residual);
   weight.assign(neighbor.size(), 0.);
+  residual_weight.assign(neighbor.size(), 0.);
   reconnect();
 }
 
@@ -282,6 +283,7 @@ std::size_t BondList::remove(const std::vector<char> &dead)
         neighbor[to] = neighbor[from];
         reverse[to] = reverse[from];
         weight[to] = weight[from];
+        residual_weight[to] = residual_weight[from];
         residual[to] = residual[from];
         if (neighbor[to] < n_owned)
           reverse[reverse[to]] = to;

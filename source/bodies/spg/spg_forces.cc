@@ -159,7 +159,9 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
                 std::to_string(xi[2]) +
                 ") m: incremental deformation gradient has determinant " +
                 std::to_string(J);
-    largest_change = std::max({largest_change, J, 1. / J});
+    largest_change = std::max({largest_change, compression,
+                               norm_square(F.row[0]) + norm_square(F.row[1]) +
+                                   norm_square(F.row[2]) - 2.});
   }
 }
 
@@ -167,15 +169,14 @@ void SpgBody::residuals(const std::size_t begin, const std::size_t end)
 {
   // Trial residuals e = dx - F Xi by increments, which needs no Xi:
   //   e = dx - F_new F_old^-1 (dx_old - theta_old e_old).
-  // Their mean square as a stress, 3 (alpha mu)^2 sum phi |e|^2 / S
-  // = 3 alpha mu (2 W / V), yields together with the deviator.
+  // As a stress of the modulus mu whose energy is W, their mean square,
+  // 3 mu (2 W / V), yields together with the deviator.
   const Vec *const x = nodal_state.position.data();
   const Vec *const x_old = previous_position.data();
   const std::uint32_t *const neighbor = bonds.neighbor.data();
-  const double *const weight = bonds.weight.data();
+  const double *const weight = bonds.residual_weight.data();
   StoredVec *const residual = bonds.residual.data();
-  const double modulus =
-      3. * options.stabilization_coefficient * material->shear_modulus();
+  const double modulus = 3. * material->shear_modulus();
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::size_t k = i - begin;
@@ -349,6 +350,7 @@ void SpgBody::gather_forces()
                                                                    bonds.reverse
                                                                        .data();
   const double *const weight = bonds.weight.data();
+  const double *const residual_weight = bonds.residual_weight.data();
   const StoredVec *const residual = bonds.residual.data();
   const Mat *const stress = generalized_stress.data();
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
@@ -368,8 +370,8 @@ void SpgBody::gather_forces()
       else
         f += multiply_columns(Q + QJ, weight[b] * (X[j] - Xi));
       if constexpr (has_residuals)
-        f += weight[b] * (own_stiffness * load(residual[b]) -
-                          QJ.row[0][3] * load(residual[reverse[b]]));
+        f += residual_weight[b] * (own_stiffness * load(residual[b]) -
+                                   QJ.row[0][3] * load(residual[reverse[b]]));
     }
     f[3] = 0.;
     nodal_state.force[i] = f;

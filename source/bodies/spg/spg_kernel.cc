@@ -47,10 +47,10 @@ void SpgBody::prepare_kernel()
 
 void SpgBody::update_topology(const unsigned int step, const double time)
 {
-  // Regular updates where something has deformed; at once where a volume has
-  // changed by half or a bond fails. All ranks must agree.
+  // Regular updates where something has deformed; at once where a particle has
+  // been stretched by much or a bond fails. All ranks must agree.
   const bool regular = step % options.kernel_update_interval == 0;
-  double due = largest_change > options.kernel_update_change ||
+  double due = std::sqrt(largest_change) > options.kernel_update_change ||
                (regular && has_strained());
   if (step % options.failure_check_interval == 0 || regular)
     due = std::max(due, double(find_failed_bonds()));
@@ -157,11 +157,12 @@ void SpgBody::compute_moments()
     {
       const std::uint32_t j = bonds.neighbor[b];
       const Vec dX = kernel_position[j] - kernel_position[i];
-      const Vec xi = H_inverse * dX;
-      const double w =
-          0.5 * (Kernel::weight(xi) + Kernel::weight(kernel_inverse[j] * dX));
+      const Vec xi = H_inverse * dX, xi_there = kernel_inverse[j] * dX;
+      const double w = 0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there));
       bonds.weight[b] = w;
-      spread += w * norm_square(dX);
+      const double square = 0.5 * w * (norm_square(xi) + norm_square(xi_there));
+      bonds.residual_weight[b] = square / norm_square(dX);
+      spread += square;
       add_outer(M, w * xi, xi);
     }
     if (intact)

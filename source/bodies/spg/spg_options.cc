@@ -54,10 +54,11 @@ void SpgOptions::declare_parameters(dealii::ParameterHandler &prm)
                     "An interval passes without update when no particle has "
                     "strained by more than this since the last one; rotation "
                     "needs none. 0: every interval.");
-  prm.declare_entry("Kernel update change", "1.6",
-                    QuantityPattern(Dimension::none, 1.05, 10.),
-                    "A particle whose volume has changed by this ratio since "
-                    "the last update calls for an update at once.");
+  prm.declare_entry("Kernel update change", "1.1",
+                    QuantityPattern(Dimension::none, 1.01, 10.),
+                    "A particle that has been stretched or flattened by about "
+                    "this factor since the last update calls for an update at "
+                    "once.");
   prm.declare_entry("Failure check interval", "5", Integer(1),
                     "Steps between checks of the bonds; where any fails, the "
                     "kernel is updated at once.");

@@ -153,6 +153,7 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
   visitor.visit_array("bond count", bonds.count);
   visitor.visit_array("bond neighbour", bonds.neighbor);
   visitor.visit_array("bond weight", bonds.weight);
+  visitor.visit_array("bond residual weight", bonds.residual_weight);
   if (visitor.is_restoring())
     bonds.reconnect();
   // Ghosts' bonds come anew.

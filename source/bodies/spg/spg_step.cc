@@ -59,8 +59,8 @@ void SpgBody::estimate_stable_step()
                        norm(inverse_moment[j] *
                             (kernel_position[j] - kernel_position[i]));
       row += share[j].volume * share[j].gradient_sum * there;
-      springs +=
-          2. * bonds.weight[b] * (share[i].stiffness + share[j].stiffness);
+      springs += 2. * bonds.residual_weight[b] *
+                 (share[i].stiffness + share[j].stiffness);
       if (second_gradient)
         for (int k = 0; k < 3; ++k)
           springs +=
@@ -128,7 +128,7 @@ void SpgBody::apply_linearized(const AlignedVector<Vec> &motion,
     {
       const std::uint32_t j = bonds.neighbor[b];
       const Vec dX = X[j] - X[i], e = motion[j] - motion[i] - L * dX;
-      add_outer(moment, -bond_stiffness[i] * bonds.weight[b] * e, dX);
+      add_outer(moment, -bond_stiffness[i] * bonds.residual_weight[b] * e, dX);
     }
     particle[i] = {moment, L, bond_stiffness[i]};
     if (second_gradient)
@@ -146,7 +146,7 @@ void SpgBody::apply_linearized(const AlignedVector<Vec> &motion,
       const Vec dX = X[j] - X[i], relative = motion[j] - motion[i];
       f += particle[i].moment * g(i, j, b, bonds.weight[b]) -
            particle[j].moment * g(j, i, bonds.reverse[b], bonds.weight[b]);
-      f += bonds.weight[b] *
+      f += bonds.residual_weight[b] *
            (particle[i].stiffness * (relative - particle[i].slope * dX) +
             particle[j].stiffness * (relative - particle[j].slope * dX));
     }

@@ -80,6 +80,7 @@ public:
   std::vector<std::uint32_t> neighbor; // local index
   std::vector<std::uint32_t> reverse;  // into arrays over n_with_ghosts()
   std::vector<double> weight;          // symmetric kernel weight
+  std::vector<double> residual_weight; // of |e|^2, symmetric [1/m^2]
   AlignedVector<StoredVec> residual;   // e [m], [n_with_ghosts()]
 
   /** Rows, for checkpoints. After overwriting them, call reconnect(). */

@@ -232,7 +232,7 @@ private:
   double initial_calibration = std::numeric_limits<double>::max();
   std::size_t last_calibration = 0; // step
   double calibrated_bound = 0.;     // Gershgorin's, at the last calibration [s]
-  double largest_change = 0.;       // how far det F left 1, as a ratio >= 1
+  double largest_change = 0.;       // largest stretch of F or F^-1, squared
   std::size_t n_updates = 0, n_fallback = 0;
   std::vector<StateVariable> state_variables;
   std::size_t n_states = 0;

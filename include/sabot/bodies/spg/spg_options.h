@@ -57,7 +57,7 @@ struct SpgOptions
   NeighborPolicy neighbor_policy = NeighborPolicy::lagrangian;
   unsigned int kernel_update_interval = 30; // steps
   double kernel_update_strain = 0.02;       // since the last update
-  double kernel_update_change = 1.6;        // of the volume, as a ratio
+  double kernel_update_change = 1.1;        // stretch since the last update
   unsigned int failure_check_interval = 5;  // steps
   FailureCriterion failure_criterion =
       FailureCriterion::effective_plastic_strain;
