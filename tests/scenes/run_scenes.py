@@ -48,6 +48,13 @@ def result(path):
         return json.load(file)
 
 
+def descendants(pid):
+    """Processes that @p pid started, and theirs."""
+    with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
+        children = [int(child) for child in file.read().split()]
+    return children + [d for child in children for d in descendants(child)]
+
+
 def fem_bar(size="5 mm, 5 mm, 5 mm", geometry="box", entry="Cell size",
             value="1 mm"):
     """The scene BAR as hexahedra, in a file of its own."""
@@ -506,6 +513,47 @@ class Scenes(unittest.TestCase):
         self.assertIn("history.h5", output)
         self.assertIn("File too large", output)
         self.assert_whole_results(out)
+
+    def test_a_disk_that_fills_within_a_checkpoint_ends_cleanly(self):
+        # The first checkpoint is whole, the next meets a limit after a part of
+        # its length: among its first bytes, in its arrays, in its end.
+        for ranks, part in ((1, 0.0001), (1, 0.5), (1, 0.9999), (2, 0.5)):
+            out = folder("disk-filled")
+            command = [SABOT, "run", BAR, "-o", out, "--quiet", "--set",
+                       "Bodies/block/Size=12 mm, 12 mm, 12 mm", "--set",
+                       "End time=1 s", "--set",
+                       "Outputs/fields/Interval=1 s", "--set",
+                       "Outputs/averages/Interval=1 s", "--set",
+                       "Checkpoint interval in steps=40"]
+            if ranks > 1:
+                command = ["mpirun", "--oversubscribe", "-np",
+                           str(ranks)] + command
+            process = subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                universal_newlines=True, env=ENVIRONMENT)
+            files = []
+            while process.poll() is None and not files:
+                files = glob.glob(os.path.join(out, "checkpoint/step-*.h5"))
+                time.sleep(0.002)
+            limit = int(part * os.path.getsize(files[0]))
+            for pid in [process.pid] + descendants(process.pid):
+                resource.prlimit(pid, resource.RLIMIT_FSIZE, (limit, limit))
+            output = process.communicate(timeout=120)[0]
+            self.assertEqual(process.returncode, 4, output)
+            self.assertRegex(
+                output, r'cannot write "[^"]*/checkpoint/step-\d+\.h5": '
+                        "File too large")
+            names = os.listdir(os.path.join(out, "checkpoint"))
+            self.assertFalse([n for n in names if not n.endswith(".h5")])
+            self.assertIn(os.path.basename(files[0]), names + ["step-"])
+            # What is left is taken up again, to a step further on.
+            done = sabot("resume", out, "--quiet", "--set",
+                         "End time=%g us" % 3., ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "log.txt")) as file:
+                log = file.read()
+            self.assertRegex(log, r"resumed at step \d+0,")
+            self.assertNotIn("damaged", log)
 
     def test_a_full_file_system_keeps_what_was_written(self):
         out = folder("tmpfs")
