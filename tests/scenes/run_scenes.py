@@ -100,27 +100,42 @@ def read_vtu(path):
     return arrays
 
 
-def write_fork(path):
-    """Cells of edge 1: two prongs, 2 x 2 and 12 long, 1 apart in the middle of
-    x, on a common foot below z = 0."""
+def write_mesh(path, cells_at, position):
+    """A mesh file of the cells with these least corners (i, j, k), nodes at
+    position(i, j, k)."""
     nodes, cells = {}, []
-    for k in range(-2, 12):
-        for j in range(2):
-            for i in (0, 1, 2, 3, 4):
-                if i != 2 or k < 0:
-                    cells.append([
-                        nodes.setdefault((i + a, j + b, k + c), len(nodes) + 1)
-                        for c in (0, 1)
-                        for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))])
+    for i, j, k in cells_at:
+        cells.append([nodes.setdefault((i + a, j + b, k + c), len(nodes) + 1)
+                      for c in (0, 1)
+                      for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))])
     with open(path, "w") as file:
         file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n"
                    % len(nodes))
-        for (i, j, k), number in nodes.items():
-            file.write("%d %g %g %g\n" % (number, i - 2.5, j - 1., k))
+        for corner, number in nodes.items():
+            file.write("%d %.17g %.17g %.17g\n"
+                       % (number, *position(*corner)))
         file.write("$EndNodes\n$Elements\n%d\n" % len(cells))
         for number, cell in enumerate(cells, 1):
             file.write("%d 5 2 0 0 %s\n" % (number, " ".join(map(str, cell))))
         file.write("$EndElements\n")
+
+
+def write_fork(path):
+    """Cells of edge 1: two prongs, 2 x 2 and 12 long, 1 apart in the middle of
+    x, on a common foot below z = 0."""
+    write_mesh(path, [(i, j, k) for k in range(-2, 12) for j in range(2)
+                      for i in range(5) if i != 2 or k < 0],
+               lambda i, j, k: (i - 2.5, j - 1., k))
+
+
+def write_pipe(path, inner, outer, n_around, n_along):
+    """A quarter of a pipe around z, 4 long, two cells thick."""
+    def position(i, j, k):
+        r = inner + 0.5 * i * (outer - inner)
+        angle = 0.5 * math.pi * j / n_around
+        return r * math.cos(angle), r * math.sin(angle), 4. * k / n_along
+    write_mesh(path, [(i, j, k) for k in range(n_along)
+                      for j in range(n_around) for i in range(2)], position)
 
 
 class Scenes(unittest.TestCase):
@@ -308,6 +323,31 @@ class Scenes(unittest.TestCase):
             self.assertGreater(gap[-1], 0.1e-3)
         self.assertNotEqual(histories[0], histories[1])
         self.assertEqual(histories[1], histories[2])
+
+    def test_a_curved_tie_on_1_2_and_3_ranks(self):
+        # Cells inside, particles outside, not conforming; a blow from x.
+        os.makedirs(WORK, exist_ok=True)
+        write_pipe(os.path.join(WORK, "inner.msh"), 4., 6., 5, 3)
+        write_pipe(os.path.join(WORK, "outer.msh"), 6., 8., 8, 4)
+        scene = os.path.join(WORK, "pipes.prm")
+        shutil.copy(os.path.join(SOURCE, "tests/scenes/pipes.prm"), scene)
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("pipes%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertEqual(r["couplings"]["joint"]["tied_nodes"], 45)
+            self.assertLess(r["energy_residual_max"], 0.01)
+            self.assertLess(r["momentum_residual_max"], 1e-12)
+            self.assertLess(abs(r["energy"]["tie"]),
+                            1e-12 * r["energy"]["total"])
+            # The tie has brought the cells to move.
+            self.assertGreater(r["bodies"]["inner"]["velocity"][0], 2.)
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
 
     def test_materials_are_the_same_on_1_2_and_3_ranks(self):
         histories = []
