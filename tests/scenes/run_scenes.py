@@ -324,6 +324,34 @@ class Scenes(unittest.TestCase):
         self.assertNotEqual(histories[0], histories[1])
         self.assertEqual(histories[1], histories[2])
 
+    def test_fragments_are_the_same_on_1_2_and_3_ranks(self):
+        # To splinters, which lie across the ranks.
+        seen = []
+        for ranks in (1, 2, 3):
+            out = folder("torn%d" % ranks)
+            done = sabot("run", os.path.join(SOURCE, "tests/scenes/torn.prm"),
+                         "-o", out, "--quiet", "--set",
+                         "Bodies/weight/Initial velocity=400 m/s, 0 m/s, 0 m/s",
+                         "--set",
+                         "Bodies/bar/Critical effective plastic strain=0.1",
+                         ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            pieces = glob.glob(os.path.join(out, "fields/bar_000006*.vtu"))
+            self.assertEqual(len(pieces), ranks)
+            ids = sorted(label for piece in pieces
+                         for label in read_vtu(piece)["fragment"])
+            bar = result(out)["bodies"]["bar"]
+            self.assertEqual(bar["fragment_count"], len(set(ids)))
+            sizes = sorted((ids.count(label) for label in set(ids)),
+                           reverse=True)
+            self.assertGreater(len(sizes), 5)
+            self.assertEqual(sum(sizes), 176)
+            self.assertEqual(sorted((f["particles"] for f in bar["fragments"]),
+                                    reverse=True), sizes)
+            seen.append((ids, bar))
+        self.assertEqual(seen[0], seen[1])
+        self.assertEqual(seen[0], seen[2])
+
     def test_a_curved_tie_on_1_2_and_3_ranks(self):
         # Cells inside, particles outside, not conforming; a blow from x.
         os.makedirs(WORK, exist_ok=True)
