@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <iostream>
 
 namespace
@@ -293,6 +294,8 @@ int main(int argc, char **argv)
     return report_errors(true,
                          [&]() { return draw_picture(arguments.picture); });
 
+  // What exceeds a limit on files is an error of the write, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool speaks =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

@@ -143,14 +143,12 @@ void Contact::search()
     const std::int32_t body = c[first].node.body;
     group.spacing = surfaces[body].spacing;
     double modulus = surfaces[body].bulk_modulus;
-    double yield = surfaces[body].yield_stress;
     // Where both sides' nodes meet faces, each carries half of the shear.
     double sides = 1.;
     for (std::size_t i = first; i < last; ++i)
     {
       const int other = found.faces[faces_of[c[i].first_face]].body;
       modulus = std::min(modulus, surfaces[other].bulk_modulus);
-      yield = std::min(yield, surfaces[other].yield_stress);
       for (const ContactPair &pair : pairs)
         if (pair.faces_of == body && pair.nodes_of == other &&
             !pair.loose_nodes_only)
@@ -164,8 +162,6 @@ void Contact::search()
     group.share = c[first].share;
     group.stiffness =
         c[first].share * options.stiffness_scale * modulus * group.spacing;
-    group.shear_limit =
-        options.limit_by_yield ? yield / std::sqrt(3.) : options.shear_limit;
     group.area = c[first].share * group.spacing * group.spacing / sides;
     group.area_vector = (1. / sides) * c[first].area;
     groups.push_back(group);
@@ -174,6 +170,8 @@ void Contact::search()
   friction_force.assign(halo.size(), Vec{});
   total_force.assign(halo.size(), Vec{});
   touched_number.assign(halo.size(), -1);
+  if (options.limit_by_yield)
+    halo.find_flow_stress(flow_stress);
 }
 
 std::ptrdiff_t Contact::closest_face(const Group &group, FaceProjection &best,
@@ -320,7 +318,7 @@ void Contact::add_forces(const double dt)
                             ? std::max(0., -dot(group.area_vector, n))
                             : group.area;
     const auto [fn, ft] = contact_forces(options, k, reduced_mass, depth, v, n,
-                                         group.shear_limit * area, dt);
+                                         shear_limit(group) * area, dt);
     normal_force[group.slot] += fn;
     friction_force[group.slot] += ft;
     push_touched(fn, normal_force);
@@ -377,11 +375,10 @@ void Contact::visit_state(StateVisitor &visitor)
   std::vector<NodeKey> face_nodes;
   for (const Group &group : groups)
   {
-    saved.push_back({halo.key(group.slot),
-                     std::int64_t(group.last_face - group.first_face),
-                     group.stiffness, group.spacing, group.area,
-                     group.shear_limit, group.area_vector, group.memory,
-                     group.wake, group.patch_radius, group.share});
+    saved.push_back(
+        {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
+         group.stiffness, group.spacing, group.area, group.area_vector,
+         group.memory, group.wake, group.patch_radius, group.share});
     for (std::size_t k = group.first_face; k < group.last_face; ++k)
       for (const std::size_t slot : face_slots[face_of_group[k]])
         face_nodes.push_back(halo.key(slot));
@@ -393,6 +390,7 @@ void Contact::visit_state(StateVisitor &visitor)
     update_surfaces(); // as the restored bodies have them
     restore_groups(saved, face_nodes);
   }
+  visitor.visit_resized("flow stress", flow_stress);
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("normal force", normal_force);
   visitor.visit_array("friction force", friction_force);
@@ -417,7 +415,6 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     group.stiffness = from.stiffness;
     group.spacing = from.spacing;
     group.area = from.area;
-    group.shear_limit = from.shear_limit;
     group.area_vector = from.area_vector;
     group.memory = from.memory;
     group.wake = from.wake;

@@ -2,6 +2,7 @@
 #include "sabot/kernels/patch_weights.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sabot
 {
@@ -154,6 +155,16 @@ Vec Contact::velocity_of_touched() const
   for (const Touched &t : touched)
     v += t.weight * flipped(halo.velocity[t.slot], t.mirrored);
   return v;
+}
+
+double Contact::shear_limit(const Group &group) const
+{
+  if (!options.limit_by_yield)
+    return options.shear_limit;
+  double its = 0.;
+  for (const Touched &t : touched)
+    its += t.weight * flow_stress[t.slot];
+  return std::min(flow_stress[group.slot], its) / std::sqrt(3.);
 }
 
 void Contact::push_touched(const Vec force, AlignedVector<Vec> &forces) const

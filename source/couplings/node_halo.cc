@@ -119,6 +119,21 @@ void NodeHalo::update()
   exchange.update(inertia.data());
 }
 
+void NodeHalo::find_flow_stress(std::vector<double> &of_slots) const
+{
+  of_slots.resize(size());
+  for (std::size_t s = 0, end; s < n_owned(); s = end)
+  {
+    // Slots are sorted by body.
+    std::vector<std::size_t> nodes;
+    for (end = s; end < n_owned() && owned_body[end] == owned_body[s]; ++end)
+      nodes.push_back(owned_local[end]);
+    const auto found = all_bodies[owned_body[s]]->flow_stress(nodes);
+    std::copy(found.begin(), found.end(), of_slots.begin() + s);
+  }
+  exchange.update(of_slots.data());
+}
+
 std::size_t NodeHalo::slot(const NodeKey &key) const
 {
   const auto middle = key_of_slot.begin() + n_owned();

@@ -94,13 +94,9 @@ void ParticleContact::search()
       group.stiffness = node.share * options.stiffness_scale *
                         std::min(mine.bulk_modulus, its.bulk_modulus) *
                         mine.spacing;
-      const double shear =
-          options.limit_by_yield
-              ? std::min(mine.yield_stress, its.yield_stress) / std::sqrt(3.)
-              : options.shear_limit;
       // Where both sides meet surfaces, each carries half of the shear.
-      group.largest_friction = shear * node.share * mine.spacing *
-                               mine.spacing / (node.is_sound ? 2. : 1.);
+      group.area =
+          node.share * mine.spacing * mine.spacing / (node.is_sound ? 2. : 1.);
       const auto old = std::lower_bound(groups.begin(), groups.end(), group);
       if (old != groups.end() && !(group < *old))
         group.memory = old->memory;
@@ -131,6 +127,19 @@ void ParticleContact::search()
     members.insert(members.end(), begin, end);
   }
   build_halo();
+  if (options.limit_by_yield)
+    halo.find_flow_stress(flow_stress);
+}
+
+double ParticleContact::largest_friction(const Group &group,
+                                         const Slots &at) const
+{
+  if (!options.limit_by_yield)
+    return options.shear_limit * group.area;
+  double its = 0.;
+  for (std::size_t m = at.first_member; m < at.last_member; ++m)
+    its += weight[m - at.first_member] * flow_stress[member_slots[m]];
+  return std::min(flow_stress[at.node], its) / std::sqrt(3.) * group.area;
 }
 
 void ParticleContact::build_halo()
@@ -306,7 +315,7 @@ void ParticleContact::add_forces(const double dt)
                                                    reduced_mass / (dt * dt));
     const ContactForces force =
         contact_forces(options, k, reduced_mass, depth, v, standing.normal,
-                       group.largest_friction, dt);
+                       largest_friction(group, at), dt);
     const Vec fn = standing.fade * force.normal,
               ft = standing.fade * force.friction;
     normal_force[at.node] += fn;
@@ -367,6 +376,7 @@ void ParticleContact::visit_state(StateVisitor &visitor)
   visitor.visit_resized("members", members);
   if (visitor.is_restoring())
     build_halo();
+  visitor.visit_resized("flow stress", flow_stress);
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("normal force", normal_force);
   visitor.visit_array("friction force", friction_force);

@@ -69,15 +69,12 @@ void SelfContact::search()
   }
   std::vector<Loose> mine;
   std::vector<DebrisView> views(n_bodies);
-  std::vector<double> shear(n_bodies, options.shear_limit);
   double largest_spacing = 0.;
   for (std::size_t b = 0; b < n_bodies; ++b)
   {
     if (!used[b])
       continue;
     views[b] = bodies[b]->debris();
-    if (options.limit_by_yield)
-      shear[b] = bodies[b]->contact_surface().yield_stress / std::sqrt(3.);
     largest_spacing = std::max(largest_spacing, views[b].spacing);
     for (const std::size_t i : views[b].nodes)
       mine.push_back({{std::int32_t(b), 0, bodies[b]->nodes().global_id[i]},
@@ -118,8 +115,7 @@ void SelfContact::search()
           pair.distance = std::min(options.contact_distance * h, distance);
           pair.stiffness = options.stiffness_scale * h *
                            std::min(mine_view.bulk_modulus, its.bulk_modulus);
-          pair.largest_friction =
-              h * h * std::min(shear[a.body], shear[b.body]);
+          pair.largest_friction = h * h * options.shear_limit;
           found.push_back(pair);
         });
   }
@@ -135,6 +131,18 @@ void SelfContact::search()
   }
   pairs = std::move(found);
   build_halo();
+  if (!options.limit_by_yield)
+    return;
+  std::vector<double> flow_stress;
+  halo.find_flow_stress(flow_stress);
+  for (Pair &pair : pairs)
+  {
+    const double h = std::min(views[pair.first.body].spacing,
+                              views[pair.second.body].spacing);
+    pair.largest_friction =
+        h * h / std::sqrt(3.) *
+        std::min(flow_stress[pair.slot[0]], flow_stress[pair.slot[1]]);
+  }
 }
 
 void SelfContact::build_halo()

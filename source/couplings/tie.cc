@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sabot
 {
@@ -14,6 +15,9 @@ struct FaceRecord
   GlobalIndex id;
   std::array<GlobalIndex, 4> node;
   std::array<Vec, 4> x;
+  bool has_cell;                        // it is known what is behind
+  std::array<GlobalIndex, 8> cell_node; // VTK order
+  std::array<Vec, 8> cell_x;
 };
 
 struct NodeRecord
@@ -69,6 +73,61 @@ double project(const FaceRecord &face, const Vec x, std::array<double, 4> &w)
   }
   return norm(x - closest);
 }
+
+/** Trilinear functions, and what they make of the corners. */
+void trilinear(const std::array<double, 3> &xi, const std::array<Vec, 8> &x,
+               std::array<double, 8> &w, Vec &point, Mat &slope)
+{
+  constexpr int sign[3][8] = {{-1, 1, 1, -1, -1, 1, 1, -1},
+                              {-1, -1, 1, 1, -1, -1, 1, 1},
+                              {-1, -1, -1, -1, 1, 1, 1, 1}};
+  point = Vec{};
+  slope = Mat::zero(); // column d in row d: dx/dxi_d
+  for (int a = 0; a < 8; ++a)
+  {
+    double f[3];
+    for (int d = 0; d < 3; ++d)
+      f[d] = 0.5 * (1. + sign[d][a] * xi[d]);
+    w[a] = f[0] * f[1] * f[2];
+    point += w[a] * x[a];
+    for (int d = 0; d < 3; ++d)
+      slope.row[d] += 0.5 * sign[d][a] * f[(d + 1) % 3] * f[(d + 2) % 3] * x[a];
+  }
+}
+
+/** Weights of a cell's corners with sum w_a x_a = @p x, by Newton's method;
+    false where that is too far outside, or cannot be. */
+bool continue_cell(const std::array<Vec, 8> &corners, const Vec x,
+                   std::array<double, 8> &w)
+{
+  // A quarter of the cell: inner corners then have -1/4 of the mass at most.
+  constexpr double farthest = 1.5, converged = 1e-14;
+  std::array<double, 3> xi{};
+  for (int iteration = 0; iteration < 50; ++iteration)
+  {
+    Vec point;
+    Mat slope;
+    trilinear(xi, corners, w, point, slope);
+    double determinant;
+    const Vec step = transpose(inverse(slope, determinant)) * (x - point);
+    double change = 0.;
+    for (int d = 0; d < 3; ++d)
+    {
+      xi[d] += step[d];
+      change += std::abs(step[d]);
+    }
+    if (!(change < 10.))
+      return false;
+    if (change > converged && iteration < 49)
+      continue;
+    trilinear(xi, corners, w, point, slope);
+    for (const double c : xi)
+      if (std::abs(c) > farthest)
+        return false;
+    return change <= 1e-12;
+  }
+  return false;
+}
 } // namespace
 
 Tie::Tie(const std::string &name, const std::vector<Body *> &bodies,
@@ -79,6 +138,52 @@ Tie::Tie(const std::string &name, const std::vector<Body *> &bodies,
 {
 }
 
+void Tie::use_face(Constraint &constraint)
+{
+  constraint.leader.fill(constraint.face[0]);
+  constraint.weight.fill(0.);
+  std::copy(constraint.face.begin(), constraint.face.end(),
+            constraint.leader.begin());
+  std::copy(constraint.face_weight.begin(), constraint.face_weight.end(),
+            constraint.weight.begin());
+}
+
+std::pair<double, double>
+Tie::judge(const std::vector<Constraint> &constraints) const
+{
+  // With n_f = sum |w_f|, |sum w_f u|^2 <= n_f sum |w_f| u^2, so that
+  // K <= omega^2 (m_a + sum n_f |w_fa| m_f) against the mass m_a + sum w_fa
+  // m_f.
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  std::map<GlobalIndex, std::pair<double, double>> added;
+  for (const Constraint &c : constraints)
+  {
+    double n = 0.;
+    for (const double w : c.weight)
+      n += std::abs(w);
+    for (int a = 0; a < 8; ++a)
+      if (bodies[leader]->node_owner[c.leader[a]] == rank)
+      {
+        added[c.leader[a]].first += c.weight[a] * c.mass;
+        added[c.leader[a]].second += n * std::abs(c.weight[a]) * c.mass;
+      }
+  }
+  const NodalState &leads = bodies[leader]->nodes();
+  double least[2] = {1., 1.};
+  for (std::size_t i = 0; i < leads.n_owned; ++i)
+  {
+    const auto found = added.find(leads.global_id[i]);
+    if (found == added.end())
+      continue;
+    const double m = leads.lumped_mass[i], mass = m + found->second.first;
+    least[0] = std::min(least[0], mass / m);
+    least[1] = std::min(least[1], mass / (m + found->second.second));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, least, 2, MPI_DOUBLE, MPI_MIN, communicator);
+  return {least[0], least[1]};
+}
+
 std::vector<Tie::Constraint> Tie::find_constraints() const
 {
   int rank;
@@ -86,6 +191,8 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
   Body &leading = *bodies[leader];
   const ContactSurface surface = leading.contact_surface();
   const NodalState &nodes = leading.nodes();
+  const std::vector<std::array<std::size_t, 8>> behind =
+      leading.cells_behind_faces();
   std::vector<FaceRecord> my_faces;
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
   {
@@ -98,8 +205,22 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
     }
     // A face is known to several ranks; one speaks for it.
     if (leading.node_owner[*std::min_element(record.node.begin(),
-                                             record.node.end())] == rank)
-      my_faces.push_back(record);
+                                             record.node.end())] != rank)
+      continue;
+    record.has_cell =
+        f < behind.size() &&
+        std::all_of(surface.faces[f].begin(), surface.faces[f].end(),
+                    [&](const std::size_t a)
+                    {
+                      return std::find(behind[f].begin(), behind[f].end(), a) !=
+                             behind[f].end();
+                    });
+    for (int a = 0; a < 8 && record.has_cell; ++a)
+    {
+      record.cell_node[a] = nodes.global_id[behind[f][a]];
+      record.cell_x[a] = nodes.reference_position[behind[f][a]];
+    }
+    my_faces.push_back(record);
   }
   std::vector<FaceRecord> faces = gather_all(my_faces, communicator);
   std::sort(faces.begin(), faces.end(),
@@ -108,14 +229,14 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
 
   const NodalState &followers = bodies[follower]->nodes();
   const ContactSurface open = bodies[follower]->contact_surface();
-  const double reach = tolerance * open.spacing;
+  const double reach = tolerance * open.spacing, touching = 1e-9 * open.spacing;
   std::vector<Constraint> mine;
   for (std::size_t i = 0; i < followers.n_owned; ++i)
   {
     const Vec x = followers.reference_position[i];
     double best = reach;
-    Constraint constraint;
-    bool found = false;
+    Constraint constraint{};
+    const FaceRecord *on = nullptr;
     for (const FaceRecord &face : faces)
     {
       bool near = true;
@@ -134,15 +255,23 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
       std::array<double, 4> weight;
       const double distance = project(face, x, weight);
       // The first of equally near faces wins, in global order.
-      if (distance < best - (found ? 1e-9 * open.spacing : 0.))
+      if (distance < best - (on ? touching : 0.))
       {
         best = distance;
-        found = true;
-        constraint = {followers.global_id[i], face.node, weight};
+        on = &face;
+        constraint.face_weight = weight;
       }
     }
-    if (found)
-      mine.push_back(constraint);
+    if (!on)
+      continue;
+    constraint.follower = followers.global_id[i];
+    constraint.mass = followers.lumped_mass[i];
+    constraint.face = on->node;
+    constraint.leader = on->cell_node;
+    if (best <= touching || !on->has_cell ||
+        !continue_cell(on->cell_x, x, constraint.weight))
+      use_face(constraint);
+    mine.push_back(constraint);
   }
   std::vector<Constraint> all = gather_all(mine, communicator);
   std::sort(all.begin(), all.end(),
@@ -155,7 +284,7 @@ void Tie::initialize()
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  const std::vector<Constraint> constraints = find_constraints();
+  std::vector<Constraint> constraints = find_constraints();
   n_constraints = constraints.size();
   if (n_constraints == 0)
     throw InputError("Couplings/" + name,
@@ -163,6 +292,22 @@ void Tie::initialize()
                          "\" lies on the surface of body \"" +
                          bodies[leader]->name +
                          "\": check zone, sizes and positions");
+
+  const bool has_negative = std::any_of(
+      constraints.begin(), constraints.end(),
+      [](const Constraint &c)
+      { return *std::min_element(c.weight.begin(), c.weight.end()) < 0.; });
+  if (has_negative)
+  {
+    // Where coarse particles would take more than half of a fine cell's mass,
+    // all stay on the faces.
+    constexpr double least_mass = 0.5;
+    const auto [mass, step_square] = judge(constraints);
+    if (mass >= least_mass)
+      step_factor = std::sqrt(step_square);
+    else
+      std::for_each(constraints.begin(), constraints.end(), use_face);
+  }
 
   Body &following = *bodies[follower], &leading = *bodies[leader];
   NodalState &followers = following.nodes(), &leads = leading.nodes();
@@ -187,8 +332,8 @@ void Tie::initialize()
     {
       const std::size_t i = local(followers, c.follower);
       owned_followers.push_back(i);
-      for (int a = 0; a < 4; ++a)
-        if (c.weight[a] > 0.)
+      for (int a = 0; a < 8; ++a)
+        if (c.weight[a] != 0.)
           motion.push_back(
               {i, leaders.slot({leader, 0, c.leader[a]}), c.weight[a]});
     }
@@ -206,8 +351,8 @@ void Tie::initialize()
       slot = std::lower_bound(owned_followers.begin(), owned_followers.end(),
                               local(followers, c.follower)) -
              owned_followers.begin();
-    for (int a = 0; a < 4; ++a)
-      if (c.weight[a] > 0. && leading.node_owner[c.leader[a]] == rank)
+    for (int a = 0; a < 8; ++a)
+      if (c.weight[a] != 0. && leading.node_owner[c.leader[a]] == rank)
       {
         if (!has_slot)
         {
@@ -284,6 +429,18 @@ void Tie::visit_state(StateVisitor &visitor)
   visitor.visit_value("work", work);
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("follower force", follower_force);
+}
+
+StableStep Tie::stable_step() const
+{
+  if (step_factor == 1.)
+    return {};
+  StableStep step = bodies[leader]->stable_step();
+  const StableStep other = bodies[follower]->stable_step();
+  if (other.dt < step.dt)
+    step = other;
+  step.dt *= step_factor;
+  return step;
 }
 
 Measures Tie::measure() const

@@ -4,6 +4,7 @@
 #include "sabot/base/hash.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/output/hdf5_tools.h"
+#include "sabot/output/hdf5_writer.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -177,6 +178,7 @@ constexpr std::size_t trailer_size = 9 + 64 + 1;
 void append_trailer(const std::string &file)
 {
   const std::string hash = sha256_of_file(file, fs::file_size(file));
+  errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::app);
   stream << trailer_start << hash << "\n";
   stream.close();
@@ -297,12 +299,6 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
              {rank, block.n, block.size,
               sha256(block.bytes.data(), block.bytes.size()), block.name});
   std::string my_lines = lines.str();
-  // HDF5 crashes at the end of a program on a file that a full disk kept it
-  // from closing, so the room is looked for first.
-  double wanted = my_lines.size();
-  for (const StateBlock &block : blocks)
-    wanted += block.bytes.size() + 1024.; // with what describes a dataset
-  MPI_Allreduce(MPI_IN_PLACE, &wanted, 1, MPI_DOUBLE, MPI_SUM, communicator);
   if (rank != 0)
   {
     unsigned long length = my_lines.size();
@@ -323,72 +319,55 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
     const auto write_all = [&](const std::string &temporary)
     {
       const Hdf5Quiet quiet;
-      errno = 0;
+      Hdf5Writer h5(temporary, file);
       bool good = true;
+      // All ranks are heard to the end, even when the disk is full.
+      for (int r = 0; r < n_ranks; ++r)
       {
-        std::error_code unknown;
-        const fs::space_info space = fs::space(folder, unknown);
-        const bool has_room = unknown || space.available > wanted;
-        const Hdf5Handle h5(has_room
-                                ? H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC,
-                                            H5P_DEFAULT, H5P_DEFAULT)
-                                : -1,
-                            H5Fclose);
-        if (!has_room)
-          errno = ENOSPC;
-        good = h5 >= 0;
-        // All ranks are heard to the end, even when the disk is full.
-        for (int r = 0; r < n_ranks; ++r)
+        std::vector<char> text(my_lines.begin(), my_lines.end());
+        if (r > 0)
         {
-          std::vector<char> text(my_lines.begin(), my_lines.end());
-          if (r > 0)
-          {
-            unsigned long length = 0;
-            MPI_Recv(&length, 1, MPI_UNSIGNED_LONG, r, 0, communicator,
-                     MPI_STATUS_IGNORE);
-            text.resize(length);
-            receive(text, r, communicator);
-          }
-          index.append(text.begin(), text.end());
-          std::istringstream stream(std::string(text.begin(), text.end()));
-          std::size_t b = 0;
-          for (std::string line; std::getline(stream, line); ++b)
-          {
-            if (r == 0)
-            {
-              good = good &&
-                     write_bytes(h5, dataset_name(r, b), blocks[b].bytes.data(),
-                                 blocks[b].bytes.size());
-              continue;
-            }
-            std::istringstream parts(line);
-            std::size_t of_rank, n, size;
-            parts >> of_rank >> n >> size;
-            std::vector<char> bytes(n * size);
-            receive(bytes, r, communicator);
-            good = good && write_bytes(h5, dataset_name(r, b), bytes.data(),
-                                       bytes.size());
-          }
+          unsigned long length = 0;
+          MPI_Recv(&length, 1, MPI_UNSIGNED_LONG, r, 0, communicator,
+                   MPI_STATUS_IGNORE);
+          text.resize(length);
+          receive(text, r, communicator);
         }
-        std::ostringstream head;
-        head << format << " " << header.version << " " << n_ranks << " "
-             << header.step << " " << std::hexfloat << header.time << "\n";
-        const std::string hash = sha256(head.str() + index + header.parameters);
-        for (const auto &[what, text] :
-             {std::pair<std::string, std::string>{"header", head.str()},
-              {"parameters", header.parameters},
-              {"index", index},
-              {"sha256", hash}})
-          good = good && write_bytes(h5, what, text.data(), text.size());
-        good = good && H5Fflush(h5, H5F_SCOPE_GLOBAL) >= 0;
+        index.append(text.begin(), text.end());
+        std::istringstream stream(std::string(text.begin(), text.end()));
+        std::size_t b = 0;
+        for (std::string line; std::getline(stream, line); ++b)
+        {
+          if (r == 0)
+          {
+            good = good &&
+                   write_bytes(h5, dataset_name(r, b), blocks[b].bytes.data(),
+                               blocks[b].bytes.size());
+            continue;
+          }
+          std::istringstream parts(line);
+          std::size_t of_rank, n, size;
+          parts >> of_rank >> n >> size;
+          std::vector<char> bytes(n * size);
+          receive(bytes, r, communicator);
+          good = good && write_bytes(h5, dataset_name(r, b), bytes.data(),
+                                     bytes.size());
+        }
       }
+      std::ostringstream head;
+      head << format << " " << header.version << " " << n_ranks << " "
+           << header.step << " " << std::hexfloat << header.time << "\n";
+      const std::string hash = sha256(head.str() + index + header.parameters);
+      for (const auto &[what, text] :
+           {std::pair<std::string, std::string>{"header", head.str()},
+            {"parameters", header.parameters},
+            {"index", index},
+            {"sha256", hash}})
+        good = good && write_bytes(h5, what, text.data(), text.size());
+      h5.close();
       if (!good)
-      {
-        const std::string reason =
-            errno != 0 ? std::strerror(errno) : "the write failed";
-        std::remove(temporary.c_str());
-        throw IOError("cannot write \"" + file + "\": " + reason);
-      }
+        throw IOError("cannot write \"" + file +
+                      "\": HDF5 could not lay it out");
       append_trailer(temporary);
       flush_to_disk(temporary);
     };

@@ -23,9 +23,17 @@ void write_atomically(const std::string &file,
                       const std::function<void(const std::string &)> &write)
 {
   const std::string temporary = file + ".part";
-  write(temporary);
-  if (std::rename(temporary.c_str(), file.c_str()) != 0)
-    throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
+  try
+  {
+    write(temporary);
+    if (std::rename(temporary.c_str(), file.c_str()) != 0)
+      throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
+  }
+  catch (...)
+  {
+    std::remove(temporary.c_str());
+    throw;
+  }
 }
 
 void write_text(const std::string &file, const std::string &text)
@@ -42,7 +50,6 @@ void write_text(const std::string &file, const std::string &text)
         {
           const std::string reason =
               errno != 0 ? std::strerror(errno) : "the write failed";
-          std::remove(temporary.c_str());
           throw IOError("cannot write \"" + file + "\": " + reason);
         }
       });

@@ -146,7 +146,6 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
           {
             const std::string reason =
                 errno != 0 ? std::strerror(errno) : "the write failed";
-            std::remove(temporary.c_str());
             throw IOError("cannot write \"" + file + "\": " + reason);
           }
         });

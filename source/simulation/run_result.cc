@@ -61,6 +61,25 @@ ordered_json zone_results(const std::vector<ZoneVerdict> &verdicts)
   return zones;
 }
 
+/** How many pieces there are, and the heaviest; nothing for a body that cannot
+    come apart. Collective. */
+void add_fragments(const Body &body, ordered_json &result)
+{
+  constexpr std::size_t most = 20;
+  const std::vector<Fragment> fragments = body.fragments();
+  if (fragments.empty())
+    return;
+  result["fragment_count"] = fragments.size();
+  result["fragments"] = ordered_json::array();
+  for (std::size_t f = 0; f < std::min(most, fragments.size()); ++f)
+  {
+    const Fragment &piece = fragments[f];
+    result["fragments"].push_back({{"particles", piece.n_particles},
+                                   {"mass", piece.mass},
+                                   {"velocity", piece.velocity}});
+  }
+}
+
 /** Every entry that trades speed for accuracy, as it is in force. */
 ordered_json knob_results(const dealii::ParameterHandler &prm)
 {
@@ -146,6 +165,7 @@ ordered_json Run::body_results() const
       b["bonds_broken_fraction"] = 0.;
     if (!has_eroded)
       b["eroded_mass"] = 0.;
+    add_fragments(*body, b);
     bodies[body->name] = b;
   }
   return bodies;

@@ -21,7 +21,7 @@ constexpr double seen_from_outside = 1e-9;
 
 /** Bodies overlap when a node of one lies deep inside the other's shape; for
     the boxes and cylinders of a scene their bounding boxes tell enough, but
-    for a zone and the body that it was carved from. */
+    for a zone and the body that it was carved from, and for what is tied. */
 struct Bounds
 {
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
@@ -81,18 +81,33 @@ std::vector<std::pair<int, int>> pairs_of(const std::vector<int> &members,
 
 void Scene::check_overlaps() const
 {
-  std::set<std::pair<std::string, std::string>> carved;
+  std::set<std::pair<std::string, std::string>> excused;
   for (const auto &body : bodies)
   {
     const std::string from =
         file.value("Bodies/" + body->name + "/Carve from", "");
-    carved.insert({body->name, from});
-    carved.insert({from, body->name});
+    excused.insert({body->name, from});
+    excused.insert({from, body->name});
+  }
+  // Boxes around two sides of a curved tie overlap.
+  for (const std::string &name : split_names(prm.get("List of couplings")))
+  {
+    const std::string path = "Couplings/" + name;
+    const std::string follower = file.value(path + "/Follower", ""),
+                      leader = file.value(path + "/Leader", "");
+    const auto is_box = [&](const std::string &body)
+    { return file.value("Bodies/" + body + "/Geometry", "box") == "box"; };
+    if (file.value(path + "/Type", "") == "tie" &&
+        !(is_box(follower) && is_box(leader)))
+    {
+      excused.insert({follower, leader});
+      excused.insert({leader, follower});
+    }
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
     {
-      if (carved.count({bodies[i]->name, bodies[j]->name}) > 0)
+      if (excused.count({bodies[i]->name, bodies[j]->name}) > 0)
         continue;
       const Bounds a = bounds_of(*bodies[i]), b = bounds_of(*bodies[j]);
       double overlap = 1e300, size = 1e300;

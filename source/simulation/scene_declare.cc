@@ -272,9 +272,9 @@ void declare_coupling(ParameterHandler &prm, const std::string &type)
   prm.declare_entry("Friction decay", "0", QuantityPattern(Dimension::none, 0.),
                     "Decay of friction with the speed of sliding, in s/m.");
   prm.declare_entry("Shear strength", "0", YieldOrStress(),
-                    "Friction per area stays below it; yield: the initial "
-                    "yield stress of the softer side over sqrt(3). 0: no "
-                    "limit.");
+                    "Friction per area stays below it; yield: the present "
+                    "flow stress of the softer side, where it is touched, over "
+                    "sqrt(3). 0: no limit.");
   if (type == "self-contact")
     prm.declare_entry("Contact distance", "0.9",
                       QuantityPattern(Dimension::none, 0.1, 1.),

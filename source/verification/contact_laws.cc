@@ -1,10 +1,12 @@
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/geometry/round_bodies.h"
+#include "sabot/materials/johnson_cook.h"
 #include "sabot/verification/problem.h"
 #include "sabot/verification/world.h"
 
 #include <chrono>
+#include <functional>
 
 namespace sabot
 {
@@ -101,10 +103,12 @@ struct Slide
   double stopped_at = std::nan(""), distance = 0.;
 };
 
-/** A block of 4 x 4 x 2 mm slides over a held plate at v for @p end. */
+/** A block of 4 x 4 x 2 mm slides over a held plate at v for @p end; the plate
+    may be given a past. */
 Slide slide(const double weight, const double v, const ContactOptions &options,
             const double end,
-            const std::shared_ptr<Material> &material = elastic())
+            const std::shared_ptr<Material> &material = elastic(),
+            const std::function<void(FemBody &)> &prepare = {})
 {
   World world;
   FemOptions block, plate;
@@ -118,6 +122,11 @@ Slide slide(const double weight, const double v, const ContactOptions &options,
       plate));
   add_contact(world, {{0, 1, false}, {1, 0, false}}, options);
   world.distribute();
+  if (prepare)
+  {
+    prepare(static_cast<FemBody &>(*world.bodies[1]));
+    world.couplings[0]->update_search(0, 1.); // looks anew
+  }
   world.integrator.initialize();
   Slide result{};
   double x = 0.;
@@ -181,6 +190,68 @@ std::vector<Check> sliding()
       {"loss of speed at the shear strength of the softer side", lost,
        v - slide(g, v, limited, 10e-6, std::make_shared<Soft>()).velocity,
        0.05 * lost, "m/s", "Y/sqrt(3) t/(rho height)"});
+  return checks;
+}
+
+/** The shear strength follows the state of the touched metal, whose flow stress
+    is four times as high or low as at the start; it is constant around that
+    state, for what is sheared at its strength flows, and is soon pressed in. */
+std::vector<Check> sliding_on_worked_metal()
+{
+  const double g = 5e5, v = 10., tau = 1e6, end = 2e-6;
+  const double Y = std::sqrt(3.) * tau, lost = tau / (rho * 2e-3) * end;
+  ContactOptions options;
+  options.friction = 8.; // ten times the shear strength
+  options.limit_by_yield = true;
+  const ElasticConstants constants{rho, E, 0.33};
+  HardeningParameters hardening;
+  hardening.table_strain = {0., 1., 2.};
+  hardening.table_stress = {0.25 * Y, 0.25 * Y, Y};
+  const auto metal =
+      std::make_shared<HardeningPlasticity>(constants, hardening);
+  const auto harden = [](const std::function<bool(const double x)> &where)
+  {
+    return [where](FemBody &plate)
+    {
+      const OutputMesh mesh = plate.output_mesh();
+      std::vector<double> change;
+      for (std::size_t e = 0; e < plate.n_local_cells(); ++e)
+      {
+        double x = 0.;
+        for (std::size_t a = 8 * e; a < 8 * e + 8; ++a)
+          x += 0.125 * mesh.points[3 * mesh.connectivity[a]];
+        change.push_back(where(x) ? 3. : 0.);
+      }
+      plate.shift_state("effective plastic strain", change);
+    };
+  };
+  const auto loss = [&](const std::shared_ptr<Material> &material,
+                        const std::function<void(FemBody &)> &prepare)
+  { return v - slide(g, v, options, end, material, prepare).velocity; };
+  std::vector<Check> checks;
+  checks.push_back({"loss of speed on hardened metal", lost,
+                    loss(metal, harden([](double) { return true; })),
+                    0.01 * lost, "m/s", "Y(eps)/sqrt(3) t/(rho height)"});
+  // The block covers x < 0 with 1.5 of 4 mm, and 0.01 mm less in the mean.
+  const double soft = 1.49 / 4.;
+  checks.push_back({"loss of speed on metal hardened for x > 0",
+                    lost * (1. - 0.75 * soft),
+                    loss(metal, harden([](const double x) { return x > 0.; })),
+                    0.01 * lost, "m/s", "area mean of Y(eps)/sqrt(3)"});
+  JohnsonCookParameters p;
+  p.A = 4. * Y;
+  p.taylor_quinney = 0.;
+  checks.push_back({"loss of speed on heated metal", lost,
+                    loss(std::make_shared<JohnsonCook>(constants, p),
+                         [&](FemBody &plate)
+                         {
+                           plate.shift_state("temperature",
+                                             std::vector<double>(
+                                                 plate.n_local_cells(),
+                                                 0.75 * (p.melt_temperature -
+                                                         p.room_temperature)));
+                         }),
+                    0.01 * lost, "m/s", "Y(T)/sqrt(3) t/(rho height)"});
   return checks;
 }
 
@@ -298,6 +369,9 @@ const RegisterProblem a({"contact-rigid-rebound",
                          "two rigid bars part as they met", "quick",
                          rigid_rebound}),
     b({"contact-sliding", "friction of a heavy block", "quick", sliding}),
+    e({"contact-worked-metal",
+       "shear strength of friction on hardened and on hot metal", "quick",
+       sliding_on_worked_metal}),
     c({"contact-hertz", "impact of two elastic spheres", "long", hertz}),
     d({"contact-search-cost", "time of a search by number of nodes", "long",
        search_cost});

@@ -79,6 +79,52 @@ std::vector<Check> sliding()
            worst, 0.02 * mu, "1", "Coulomb: no bumps"}};
 }
 
+/** The shear strength of worked metal is that of its state: the same motion as
+    with this strength given, and another than with that of the start. */
+std::vector<Check> worked_metal()
+{
+  const double g = 5e5, v = 10., tau = 1e6, Y = std::sqrt(3.) * tau;
+  HardeningParameters hardening;
+  hardening.table_strain = {0., 1., 2.};
+  hardening.table_stress = {0.25 * Y, 0.25 * Y, Y};
+  const auto metal = std::make_shared<HardeningPlasticity>(
+      ElasticConstants{2700., 68.9e9, 0.33}, hardening);
+  const auto loss = [&](const ContactOptions &options, const double strain)
+  {
+    World world;
+    SpgOptions block, slab;
+    block.initial_velocity = {{v, 0., 0.}};
+    slab.symmetry_faces = 0b011111;
+    world.bodies.push_back(std::make_unique<HeavyParticles>(
+        make_box_cloud({{0.4e-3, 0.3e-3, 1e-3}}, {{4e-3, 4e-3, 2e-3}}, 1e-3),
+        block, g));
+    world.bodies.push_back(std::make_unique<SpgBody>(
+        "slab", 1,
+        make_box_cloud({{1e-3, 0., -1e-3}}, {{10e-3, 8e-3, 2e-3}}, 1e-3), metal,
+        slab));
+    add_contact(world, options);
+    auto &body = static_cast<SpgBody &>(*world.bodies[1]);
+    for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+      body.set_state("effective plastic strain", i, strain);
+    world.couplings[0]->update_search(0, 1.); // looks anew
+    while (world.integrator.time < 2e-6)
+      world.advance(0.5);
+    return v - measure(*world.bodies[0], "velocity x");
+  };
+  ContactOptions by_yield, given, given_soft;
+  by_yield.friction = given.friction = given_soft.friction = 8.;
+  by_yield.limit_by_yield = true;
+  given.shear_limit = tau;
+  given_soft.shear_limit = 0.25 * tau;
+  const double hard = loss(given, 3.), soft = loss(given_soft, 0.);
+  return {{"loss of speed on hardened metal", hard, loss(by_yield, 3.),
+           1e-5 * hard, "m/s", "as with the strength Y(eps)/sqrt(3) given"},
+          {"loss of speed on metal as it was", soft, loss(by_yield, 0.),
+           1e-5 * soft, "m/s", "as with the strength Y(0)/sqrt(3) given"},
+          {"the one over the other", 4., hard / soft, 0.2, "1",
+           "the strengths' ratio"}};
+}
+
 /** Without friction a pressed block keeps its speed on a lattice. */
 std::vector<Check> frictionless()
 {
@@ -166,6 +212,9 @@ const RegisterProblem
        "a lattice slides on a lattice without friction", "quick",
        frictionless}),
     c({"contact-particle-stability",
-       "the stiffest penalty, fine and coarse particles", "quick", stability});
+       "the stiffest penalty, fine and coarse particles", "quick", stability}),
+    d({"contact-particle-worked-metal",
+       "shear strength of friction on hardened particles", "quick",
+       worked_metal});
 } // namespace
 } // namespace sabot

@@ -244,15 +244,10 @@ std::vector<Check> linear()
       char where[80];
       std::snprintf(where, sizeof(where), "1:%.1f, %s: ", cell / 1e-3,
                     sag > 0. ? "curved" : "flat");
-      // A bent interface is curved for the particles, faceted for the cells:
-      // exact where they share their nodes.
-      const bool is_exact = sag == 0. || cell == 1e-3;
-      const auto kind = is_exact ? Check::Kind::near : Check::Kind::reported;
       checks.push_back({std::string(where) + "motion of followers", 0.,
-                        p.follower, 1e-12, "1", "linear field, per spacing",
-                        kind});
+                        p.follower, 1e-12, "1", "linear field, per spacing"});
       checks.push_back({std::string(where) + "stress of particles", 0.,
-                        p.stress, 1e-9, "1", "uniform stress", kind});
+                        p.stress, 1e-9, "1", "uniform stress"});
       // Followers at the corners of the faces sum to the exact nodal forces.
       const bool is_nested = sag == 0. && (cell == 1e-3 || cell == 2e-3);
       checks.push_back({std::string(where) + "force left at the interface", 0.,
@@ -262,11 +257,164 @@ std::vector<Check> linear()
   return checks;
 }
 
+/** A quarter of a pipe around the z axis, 4 mm long, with @p n_around cells
+    along the arc and @p n_along along z. */
+HexMesh pipe(const double inner, const double outer, const int n_around,
+             const int n_along)
+{
+  dealii::Triangulation<3> grid;
+  dealii::GridGenerator::subdivided_hyper_rectangle(
+      grid, {2, unsigned(n_around), unsigned(n_along)},
+      dealii::Point<3>(inner, 0., 0.), dealii::Point<3>(outer, M_PI_2, 4e-3));
+  dealii::GridTools::transform(
+      [](const dealii::Point<3> &x)
+      {
+        return dealii::Point<3>(x[0] * std::cos(x[1]), x[0] * std::sin(x[1]),
+                                x[2]);
+      },
+      grid);
+  return extract_mesh(grid);
+}
+
+struct Pipes
+{
+  double follower = 0., interface_motion = 0.; // error over the largest; [m]
+  double least_mass = 1.; // that a leader keeps, over its own
+  double step = 0.;       // of the tie over the bodies'
+  double linear = 0., angular = 0., tie_work = 0., energy = 0.; // changes
+  double n_tied = 0.;
+};
+
+/** Two pipes in each other, meshed with 5 and 8 cells over the quarter, turn
+   and stretch: nodes of the follower stand off the leader's facets by up to
+   0.07 mm of 2 mm. */
+Pipes turn(const HexMesh &leader, const HexMesh &follower)
+{
+  constexpr double R = 6e-3, largest = 20e3 * R;
+  World world;
+  FemOptions options;
+  options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+  options.hourglass = FemOptions::Hourglass::stiffness;
+  world.bodies.push_back(
+      std::make_unique<FemBody>("leader", 0, leader, elastic(), options));
+  world.bodies.push_back(
+      std::make_unique<FemBody>("follower", 1, follower, elastic(), options));
+  world.couplings.push_back(std::make_unique<Tie>("tie", world.pointers(), 1, 0,
+                                                  0.2, MPI_COMM_WORLD));
+  world.distribute();
+  const auto field = [](const Vec x)
+  {
+    return vec(10. + 3000. * x[0] - 20e3 * x[1] + 900. * x[2],
+               18e3 * x[0] - 2000. * x[1] + 500. * x[2],
+               -700. * x[1] + 2000. * x[0] + 1000. * x[2]);
+  };
+  double mass = 0.;
+  for (auto &body : world.bodies)
+  {
+    mass += measure(*body, "mass");
+    NodalState &n = body->nodes();
+    for (std::size_t i = 0; i < n.size(); ++i)
+      n.velocity[i] = field(n.reference_position[i]);
+  }
+  world.couplings[0]->impose_kinematics();
+  const NodalState &followers = world.bodies[1]->nodes(),
+                   &leads = world.bodies[0]->nodes();
+  Pipes result;
+  result.n_tied = world.couplings[0]->measure()[0].value;
+  for (std::size_t i = 0; i < followers.n_owned; ++i)
+    result.follower =
+        std::max(result.follower, norm(followers.velocity[i] -
+                                       field(followers.reference_position[i])) /
+                                      largest);
+  for (std::size_t i = 0; i < leads.n_owned; ++i)
+    result.least_mass =
+        std::min(result.least_mass, leads.inertia[i] / leads.lumped_mass[i]);
+
+  world.integrator.initialize();
+  result.step = std::min(1., world.couplings[0]->stable_step().dt /
+                                 std::min(world.bodies[0]->stable_step().dt,
+                                          world.bodies[1]->stable_step().dt));
+  const double energy = world.total_energy();
+  const auto before = world.momenta();
+  while (world.integrator.time < 60e-6)
+  {
+    world.advance(1.); // at the limit
+    result.energy =
+        std::max(result.energy, std::abs(world.total_energy() / energy - 1.));
+    for (std::size_t i = 0; i < followers.n_owned; ++i)
+      if (followers.inertia[i] == 0.)
+        result.interface_motion = std::max(
+            result.interface_motion,
+            norm(followers.position[i] - followers.reference_position[i]));
+  }
+  const auto after = world.momenta();
+  for (int d = 0; d < 3; ++d)
+  {
+    const double p = mass * largest;
+    result.linear = std::max(result.linear, std::abs(after[d] - before[d]) / p);
+    result.angular = std::max(result.angular,
+                              std::abs(after[3 + d] - before[3 + d]) / (p * R));
+  }
+  EnergyLedger ledger;
+  world.couplings[0]->add_energies(ledger);
+  result.tie_work = ledger.tie.value() / energy;
+  return result;
+}
+
+std::vector<Check> cylinder()
+{
+  const double R = 6e-3, in = 4e-3, out = 8e-3;
+  std::vector<Check> checks;
+  for (const bool leader_inside : {true, false})
+  {
+    // Nodes stand outside of the leader's cells, or in them.
+    const std::string where =
+        leader_inside ? "leader inside: " : "leader outside: ";
+    const Pipes p =
+        turn(leader_inside ? pipe(in, R, 5, 3) : pipe(R, out, 5, 3),
+             leader_inside ? pipe(R, out, 8, 4) : pipe(in, R, 8, 4));
+    checks.push_back(
+        {where + "tied nodes", 45., p.n_tied, 0., "1", "9 x 5 on the arc"});
+    checks.push_back({where + "motion of followers", 0., p.follower, 1e-12, "1",
+                      "linear field, over its largest"});
+    checks.push_back(
+        {where + "momentum, change", 0., p.linear, 1e-12, "1", "conservation"});
+    checks.push_back({where + "angular momentum, change", 0., p.angular, 1e-12,
+                      "1", "conservation"});
+    checks.push_back({where + "work of the tie over the energy", 0., p.tie_work,
+                      1e-12, "1", "the tie does no work"});
+    checks.push_back({where + "energy, largest change at the stable step", 0.,
+                      p.energy, 1e-3, "1", "conservation"});
+    checks.push_back({where + "motion of the interface", 1e-3,
+                      p.interface_motion, 0., "m", "it moves far",
+                      Check::Kind::at_least});
+    checks.push_back({where + "least part of its mass that a leader keeps", 0.9,
+                      p.least_mass, 0., "1", "stability",
+                      Check::Kind::at_least});
+    checks.push_back({where + "stable step of the tie over the bodies'", 0.9,
+                      p.step, 0., "1", "stability", Check::Kind::at_least});
+  }
+  // Behind a thin layer of cells the heavy nodes of thick ones would leave no
+  // mass: they go to the faces.
+  const Pipes thin = turn(pipe(R - 0.6e-3, R, 5, 3), pipe(R, 2. * R, 8, 4));
+  checks.push_back({"thin leader: least part of its mass that a leader keeps",
+                    1., thin.least_mass, 0., "1", "tied to the faces"});
+  checks.push_back({"thin leader: momentum, change", 0., thin.linear, 1e-12,
+                    "1", "conservation"});
+  checks.push_back({"thin leader: energy, largest change at the stable step",
+                    0., thin.energy, 1e-3, "1", "conservation"});
+  checks.push_back({"thin leader: motion of followers", 0., thin.follower, 0.,
+                    "1", "gradient times distance", Check::Kind::reported});
+  return checks;
+}
+
 const RegisterProblem a({"tie-pulse",
                          "energy that a tie of ratio 1:2 reflects and loses",
                          "quick", pulse}),
     b({"tie-linear", "linear field across flat and curved ties", "quick",
        linear}),
+    d({"tie-cylinder", "two pipes in each other, tied, not conforming", "quick",
+       cylinder}),
     c({"tie-pulse-table",
        "reflected and lost energy by ratio of spacings and wavelength", "long",
        pulse_table});

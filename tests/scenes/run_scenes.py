@@ -3,18 +3,22 @@
 
 Scenes on several ranks, results and files, bad input, signals, exit codes.
 """
+import array
 import csv
 import glob
 import json
 import math
 import os
+import re
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
 import unittest
+import zlib
 
 SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
 QUICK = os.path.join(SOURCE, "prm/perforation/quick.prm")
@@ -44,6 +48,13 @@ def result(path):
         return json.load(file)
 
 
+def descendants(pid):
+    """Processes that @p pid started, and theirs."""
+    with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
+        children = [int(child) for child in file.read().split()]
+    return children + [d for child in children for d in descendants(child)]
+
+
 def fem_bar(size="5 mm, 5 mm, 5 mm", geometry="box", entry="Cell size",
             value="1 mm"):
     """The scene BAR as hexahedra, in a file of its own."""
@@ -59,6 +70,72 @@ def fem_bar(size="5 mm, 5 mm, 5 mm", geometry="box", entry="Cell size",
     with open(path, "w") as file:
         file.write(text)
     return path
+
+
+def read_vtu(path):
+    """Arrays of a VTU file by name, as VTK writes them here: appended, zlib.
+    Arrays of vectors are lists of tuples."""
+    with open(path, "rb") as file:
+        head, body = file.read().split(b'<AppendedData encoding="raw">', 1)
+    body = body[body.index(b"_") + 1:]
+    word = "<Q" if b'header_type="UInt64"' in head else "<I"
+    size = struct.calcsize(word)
+    codes = {"Float64": "d", "Int64": "q", "UInt8": "B"}
+    arrays = {}
+    for tag in re.findall("<DataArray ([^>]*)>", head.decode()):
+        entries = dict(re.findall(r'(\w+)="([^"]*)"', tag))
+        # Number of blocks, their size, size of the last, compressed sizes.
+        at = int(entries["offset"])
+        n = struct.unpack_from(word, body, at)[0]
+        lengths = [struct.unpack_from(word, body, at + size * (3 + b))[0]
+                   for b in range(n)]
+        at += size * (3 + n)
+        values = array.array(codes[entries["type"]])
+        for length in lengths:
+            values.frombytes(zlib.decompress(body[at:at + length]))
+            at += length
+        m = int(entries.get("NumberOfComponents", "1"))
+        arrays[entries["Name"]] = list(values) if m == 1 else [
+            tuple(values[i:i + m]) for i in range(0, len(values), m)]
+    return arrays
+
+
+def write_mesh(path, cells_at, position):
+    """A mesh file of the cells with these least corners (i, j, k), nodes at
+    position(i, j, k)."""
+    nodes, cells = {}, []
+    for i, j, k in cells_at:
+        cells.append([nodes.setdefault((i + a, j + b, k + c), len(nodes) + 1)
+                      for c in (0, 1)
+                      for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))])
+    with open(path, "w") as file:
+        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n"
+                   % len(nodes))
+        for corner, number in nodes.items():
+            file.write("%d %.17g %.17g %.17g\n"
+                       % (number, *position(*corner)))
+        file.write("$EndNodes\n$Elements\n%d\n" % len(cells))
+        for number, cell in enumerate(cells, 1):
+            file.write("%d 5 2 0 0 %s\n" % (number, " ".join(map(str, cell))))
+        file.write("$EndElements\n")
+
+
+def write_fork(path):
+    """Cells of edge 1: two prongs, 2 x 2 and 12 long, 1 apart in the middle of
+    x, on a common foot below z = 0."""
+    write_mesh(path, [(i, j, k) for k in range(-2, 12) for j in range(2)
+                      for i in range(5) if i != 2 or k < 0],
+               lambda i, j, k: (i - 2.5, j - 1., k))
+
+
+def write_pipe(path, inner, outer, n_around, n_along):
+    """A quarter of a pipe around z, 4 long, two cells thick."""
+    def position(i, j, k):
+        r = inner + 0.5 * i * (outer - inner)
+        angle = 0.5 * math.pi * j / n_around
+        return r * math.cos(angle), r * math.sin(angle), 4. * k / n_along
+    write_mesh(path, [(i, j, k) for k in range(n_along)
+                      for j in range(n_around) for i in range(2)], position)
 
 
 class Scenes(unittest.TestCase):
@@ -178,6 +255,127 @@ class Scenes(unittest.TestCase):
         # It is braked, and does not pass through.
         self.assertLess(r["quantities"]["residual velocity"]["value"], 600.)
         self.assertLess(r["contact"]["penetration_max_over_spacing"], 0.6)
+
+    def test_a_fork_that_folds_meets_itself_on_1_and_2_ranks(self):
+        os.makedirs(WORK, exist_ok=True)
+        scene = os.path.join(WORK, "fork.prm")
+        shutil.copy(os.path.join(SOURCE, "tests/scenes/fork.prm"), scene)
+        write_fork(os.path.join(WORK, "fork.msh"))
+
+        def gaps(out):
+            """Between the sides of the prongs that look at each other, least
+            over facing nodes, in each frame [m]."""
+            frames = [read_vtu(name)["Points"] for name in sorted(glob.glob(
+                os.path.join(out, "fields/fork_*.vtu")))]
+            at = {tuple(round(2e3 * c) for c in p): i
+                  for i, p in enumerate(frames[0])}
+            facing = [(at[(-1, y, z)], at[(1, y, z)])
+                      for y in (-2, 0, 2) for z in range(2, 25, 2)]
+            return [min(x[b][0] - x[a][0] for a, b in facing) for x in frames]
+
+        histories = []
+        for name, ranks, couplings in (("free", 1, "impact"),
+                                       ("held", 1, "impact, folding"),
+                                       ("held-2", 2, "impact, folding")):
+            out = folder("fork-" + name)
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                         "List of couplings=" + couplings, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            r = result(out)
+            self.assertLess(r["energy_residual_max"], 0.005)
+            self.assertLess(r["momentum_residual_max"], 1e-13)
+            bodies = r["bodies"]
+            thrown = bodies["striker"]["mass"] * 200.
+            self.assertAlmostEqual(
+                sum(b["mass"] * b["velocity"][0] for b in bodies.values()),
+                thrown, delta=1e-12 * thrown)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            if ranks == 2:
+                continue
+            gap = gaps(out)
+            self.assertAlmostEqual(gap[0], 1e-3, delta=1e-12)
+            if couplings == "impact":
+                # One prong is through the other, which is 2 mm wide.
+                self.assertLess(min(gap), -3e-3)
+                free = gap
+                continue
+            # The same motion until they meet, however large the forces then.
+            first = next(i for i, g in enumerate(free) if g < 0.)
+            self.assertGreater(first, 2)
+            self.assertEqual(gap[:first - 1], free[:first - 1])
+            # Of two equal bars that meet at V a node of mass m and area A is
+            # pushed by F = rho c V A/2 against the penalty k >= 0.1 m/dt^2,
+            # m = rho A h/2: depth <= F/k + ((F/k)^2 + m V^2/k)^(1/2).
+            closing = max((a - b) / 1e-6 for a, b in zip(gap, gap[1:]))
+            dt = r["time"] / r["steps"]
+            wave = math.sqrt(68.9e9 * 0.67 / (1.33 * 0.34 * 2700.))
+            pushed = wave * dt / (0.1 * 1e-3)
+            bound = (pushed + math.sqrt(pushed ** 2 + 10.)) * closing * dt
+            self.assertLess(bound, 0.5e-3)
+            self.assertGreater(min(gap), -bound)
+            self.assertLess(min(gap), 0.)
+            folding = r["couplings"]["folding"]
+            self.assertLess(folding["penetration_max_over_spacing"] * 1e-3,
+                            bound)
+            self.assertGreater(folding["contact_energy"], 0.)
+            # They have parted.
+            self.assertGreater(gap[-1], 0.1e-3)
+        self.assertNotEqual(histories[0], histories[1])
+        self.assertEqual(histories[1], histories[2])
+
+    def test_fragments_are_the_same_on_1_2_and_3_ranks(self):
+        # To splinters, which lie across the ranks.
+        seen = []
+        for ranks in (1, 2, 3):
+            out = folder("torn%d" % ranks)
+            done = sabot("run", os.path.join(SOURCE, "tests/scenes/torn.prm"),
+                         "-o", out, "--quiet", "--set",
+                         "Bodies/weight/Initial velocity=400 m/s, 0 m/s, 0 m/s",
+                         "--set",
+                         "Bodies/bar/Critical effective plastic strain=0.1",
+                         ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            pieces = glob.glob(os.path.join(out, "fields/bar_000006*.vtu"))
+            self.assertEqual(len(pieces), ranks)
+            ids = sorted(label for piece in pieces
+                         for label in read_vtu(piece)["fragment"])
+            bar = result(out)["bodies"]["bar"]
+            self.assertEqual(bar["fragment_count"], len(set(ids)))
+            sizes = sorted((ids.count(label) for label in set(ids)),
+                           reverse=True)
+            self.assertGreater(len(sizes), 5)
+            self.assertEqual(sum(sizes), 176)
+            self.assertEqual(sorted((f["particles"] for f in bar["fragments"]),
+                                    reverse=True), sizes)
+            seen.append((ids, bar))
+        self.assertEqual(seen[0], seen[1])
+        self.assertEqual(seen[0], seen[2])
+
+    def test_a_curved_tie_on_1_2_and_3_ranks(self):
+        # Cells inside, particles outside, not conforming; a blow from x.
+        os.makedirs(WORK, exist_ok=True)
+        write_pipe(os.path.join(WORK, "inner.msh"), 4., 6., 5, 3)
+        write_pipe(os.path.join(WORK, "outer.msh"), 6., 8., 8, 4)
+        scene = os.path.join(WORK, "pipes.prm")
+        shutil.copy(os.path.join(SOURCE, "tests/scenes/pipes.prm"), scene)
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("pipes%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertEqual(r["couplings"]["joint"]["tied_nodes"], 45)
+            self.assertLess(r["energy_residual_max"], 0.01)
+            self.assertLess(r["momentum_residual_max"], 1e-12)
+            self.assertLess(abs(r["energy"]["tie"]),
+                            1e-12 * r["energy"]["total"])
+            # The tie has brought the cells to move.
+            self.assertGreater(r["bodies"]["inner"]["velocity"][0], 2.)
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
 
     def test_materials_are_the_same_on_1_2_and_3_ranks(self):
         histories = []
@@ -383,6 +581,47 @@ class Scenes(unittest.TestCase):
         self.assertIn("history.h5", output)
         self.assertIn("File too large", output)
         self.assert_whole_results(out)
+
+    def test_a_disk_that_fills_within_a_checkpoint_ends_cleanly(self):
+        # The first checkpoint is whole, the next meets a limit after a part of
+        # its length: among its first bytes, in its arrays, in its end.
+        for ranks, part in ((1, 0.0001), (1, 0.5), (1, 0.9999), (2, 0.5)):
+            out = folder("disk-filled")
+            command = [SABOT, "run", BAR, "-o", out, "--quiet", "--set",
+                       "Bodies/block/Size=12 mm, 12 mm, 12 mm", "--set",
+                       "End time=1 s", "--set",
+                       "Outputs/fields/Interval=1 s", "--set",
+                       "Outputs/averages/Interval=1 s", "--set",
+                       "Checkpoint interval in steps=40"]
+            if ranks > 1:
+                command = ["mpirun", "--oversubscribe", "-np",
+                           str(ranks)] + command
+            process = subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                universal_newlines=True, env=ENVIRONMENT)
+            files = []
+            while process.poll() is None and not files:
+                files = glob.glob(os.path.join(out, "checkpoint/step-*.h5"))
+                time.sleep(0.002)
+            limit = int(part * os.path.getsize(files[0]))
+            for pid in [process.pid] + descendants(process.pid):
+                resource.prlimit(pid, resource.RLIMIT_FSIZE, (limit, limit))
+            output = process.communicate(timeout=120)[0]
+            self.assertEqual(process.returncode, 4, output)
+            self.assertRegex(
+                output, r'cannot write "[^"]*/checkpoint/step-\d+\.h5": '
+                        "File too large")
+            names = os.listdir(os.path.join(out, "checkpoint"))
+            self.assertFalse([n for n in names if not n.endswith(".h5")])
+            self.assertIn(os.path.basename(files[0]), names + ["step-"])
+            # What is left is taken up again, to a step further on.
+            done = sabot("resume", out, "--quiet", "--set",
+                         "End time=%g us" % 3., ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "log.txt")) as file:
+                log = file.read()
+            self.assertRegex(log, r"resumed at step \d+0,")
+            self.assertNotIn("damaged", log)
 
     def test_a_full_file_system_keeps_what_was_written(self):
         out = folder("tmpfs")

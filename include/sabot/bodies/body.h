@@ -46,7 +46,6 @@ struct ContactSurface
   std::vector<SymmetryPlane> symmetry_planes; // the same on every rank
   double bulk_modulus = 0.;                   // [Pa], for the penalty
   double spacing = 0.;                        // [m], typical node distance
-  double yield_stress = 1e300; // [Pa], initial; infinite: does not yield
 };
 
 /** A node of a body without faces, as part of its surface. */
@@ -138,6 +137,20 @@ public:
   virtual ContactSurface contact_surface() const = 0;
   /** Changes whenever contact_surface() would return something new. */
   virtual unsigned int contact_surface_version() const { return 0; }
+
+  /** Nodes (local, VTK order) of the cells behind the faces of
+      contact_surface(), where this rank owns the face's lowest node. */
+  virtual std::vector<std::array<std::size_t, 8>> cells_behind_faces() const
+  {
+    return {};
+  }
+  /** Present uniaxial flow stress [Pa] of the surface at some owned nodes of
+      it; 1e300: does not yield. */
+  virtual std::vector<double>
+  flow_stress(const std::vector<std::size_t> &some_nodes) const
+  {
+    return std::vector<double>(some_nodes.size(), 1e300);
+  }
 
   /** Owned node @p i as part of a surface without faces, now. */
   virtual SurfacePoint surface_point(const std::size_t /*i*/) const

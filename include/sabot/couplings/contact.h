@@ -45,9 +45,8 @@ private:
     std::size_t slot;                  // of the halo
     std::size_t first_face, last_face; // of face_of_group
     double stiffness, spacing;
-    double area;        // over which friction may act [m^2]
-    double shear_limit; // of friction per area [Pa]
-    Vec area_vector;    // of the node's own faces, zero where it has none
+    double area;     // over which friction may act [m^2]
+    Vec area_vector; // of the node's own faces, zero where it has none
     ContactMemory memory;
     /** Distance the bodies may travel before the node can touch a face. */
     double wake = 0.;
@@ -60,7 +59,7 @@ private:
   {
     NodeKey node;
     std::int64_t n_faces;
-    double stiffness, spacing, area, shear_limit;
+    double stiffness, spacing, area;
     Vec area_vector;
     ContactMemory memory;
     double wake, patch_radius, share;
@@ -100,6 +99,8 @@ private:
   /** sum w^2/m of what is touched, its mean velocity, and the reaction. */
   double compliance(const Group &group) const;
   Vec velocity_of_touched() const;
+  /** Of friction per area [Pa], between a node and what it touches. */
+  double shear_limit(const Group &group) const;
   void push_touched(const Vec force, AlignedVector<Vec> &forces) const;
   void update_surfaces();
 
@@ -114,6 +115,7 @@ private:
   std::vector<ContactSurface> surfaces;               // of the pairs' bodies
   std::vector<std::pair<int, int>> body_pairs;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
+  std::vector<double> flow_stress; // per slot, at the last search; may be empty
   // Work arrays of spread()
   std::vector<Touched> touched;
   std::vector<Vec> patch_points;

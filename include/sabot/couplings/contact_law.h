@@ -17,7 +17,7 @@ struct ContactOptions
   double friction_decay = 0.;   // [s/m]
   /** Friction over the area of a node stays below this [Pa]; infinite: off. */
   double shear_limit = 1e300;
-  /** As shear_limit, from the yield stress of the softer side. */
+  /** As shear_limit, from the present flow stress of the softer side. */
   bool limit_by_yield = false;
   double damping_fraction = 0.1; // of critical, while approaching
   double stiffness_scale = 1.;   // of K h

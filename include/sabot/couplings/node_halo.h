@@ -39,6 +39,8 @@ public:
              MPI_Comm communicator);
   /** Refresh position, velocity and inertia of all slots. Collective. */
   void update();
+  /** Present flow stress at all slots [Pa]. Collective. */
+  void find_flow_stress(std::vector<double> &of_slots) const;
   /** Slot of a key that was asked for. */
   std::size_t slot(const NodeKey &key) const;
   /** Fill the entries of the nodes owned elsewhere. Collective. */

@@ -47,7 +47,7 @@ private:
     std::int32_t other, is_sound;
     std::int64_t n_members;
     double stiffness, spacing;
-    double largest_friction; // [N]
+    double area; // over which friction may act [m^2]
     ContactMemory memory;
 
     bool operator<(const Group &o) const
@@ -69,6 +69,8 @@ private:
   void search();
   /** Halo and slots of the groups. Collective. */
   void build_halo();
+  /** Friction that the node and what it touches bear [N]. */
+  double largest_friction(const Group &group, const Slots &at) const;
   void update_halo();
   /** Weights go to weight[]; fade 0: beyond the surface. */
   Standing locate(const Group &group, const Slots &slots);
@@ -86,6 +88,7 @@ private:
   std::vector<std::size_t> member_slots;
   std::vector<double> weight, along_normal; // of the members of one group
   AlignedVector<SurfacePoint> surface;      // per slot
+  std::vector<double> flow_stress; // per slot, at the last search; may be empty
   NodeHalo halo;
   AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
   double skin = 0.;      // [m], by which candidates may approach

@@ -4,14 +4,19 @@
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/node_halo.h"
 
+#include <utility>
+
 namespace sabot
 {
 /**
  * Follower nodes move as weighted sums of leader nodes: v_f = sum w_a v_a,
  * f_a += w_a f_f, m_a += w_a m_f (doc/theory-coupling.md). Every node of the
  * follower body that lies on a boundary face of the leader body is tied, with
- * the face's bilinear shape functions as weights: exact for linear fields on
- * conforming (one leader of weight one) and non-conforming meshes.
+ * the face's bilinear shape functions as weights (one leader of weight one on
+ * conforming meshes). A node that stands off the face, of a curved interface,
+ * takes the trilinear functions of the cell behind, continued to where it is:
+ * sum w_a = 1 and sum w_a x_a = x_f, so that linear fields are exact, and the
+ * leaders' forces have the moment of the follower's.
  */
 class Tie : public Coupling
 {
@@ -30,13 +35,18 @@ public:
   void add_energies(EnergyLedger &ledger) const override;
   void visit_state(StateVisitor &visitor) override;
   Measures measure() const override;
+  StableStep stable_step() const override;
 
 private:
   struct Constraint
   {
     GlobalIndex follower;
-    std::array<GlobalIndex, 4> leader;
-    std::array<double, 4> weight; // zero where a leader takes no part
+    double mass; // of the follower [kg]
+    std::array<GlobalIndex, 8> leader;
+    std::array<double, 8> weight; // zero where a leader takes no part
+    /** On the face, to fall back on. */
+    std::array<GlobalIndex, 4> face;
+    std::array<double, 4> face_weight;
   };
   /** One term of a sum: a slot of the halo and its weight. */
   struct Term
@@ -46,12 +56,18 @@ private:
     double weight;
   };
   std::vector<Constraint> find_constraints() const;
+  static void use_face(Constraint &constraint);
+  /** The least part of its mass that any leader keeps, and what negative
+      weights take off the square of the stable step. Collective. */
+  std::pair<double, double>
+  judge(const std::vector<Constraint> &constraints) const;
 
   const std::vector<Body *> bodies;
   const int follower, leader;
   const double tolerance;
   MPI_Comm communicator;
   std::size_t n_constraints = 0;
+  double step_factor = 1.;  // below 1 where weights are negative
   NodeHalo leaders;         // of the followers owned here
   std::vector<Term> motion; // owned followers from leaders
   GhostExchange force_exchange;

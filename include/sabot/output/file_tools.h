@@ -10,7 +10,7 @@ namespace sabot
 void make_folder(const std::string &folder);
 
 /** Call @p write with a temporary name beside @p file, then rename: the file
-    is whole at any moment. IOError when either fails. */
+    is whole at any moment. IOError when either fails; the temporary is gone. */
 void write_atomically(const std::string &file,
                       const std::function<void(const std::string &)> &write);
 

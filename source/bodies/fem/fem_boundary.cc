@@ -118,7 +118,92 @@ ContactSurface FemBody::contact_surface() const
   surface.bulk_modulus = material->bulk_modulus();
   surface.spacing = typical_spacing;
   surface.symmetry_planes = symmetry_planes;
-  surface.yield_stress = material->initial_yield_stress();
   return surface;
+}
+
+const std::vector<std::uint32_t> &FemBody::cell_of_faces() const
+{
+  std::vector<std::uint32_t> &found = known_cell_of_faces;
+  if (erosion)
+  {
+    // Faces and cells come and go.
+    const std::vector<std::uint32_t> &initial = erosion->initial;
+    found.clear();
+    for (const std::int32_t cell : erosion->face_cell)
+      found.push_back(std::lower_bound(initial.begin(), initial.end(),
+                                       std::uint32_t(cell)) -
+                      initial.begin());
+  }
+  if (found.size() == boundary_faces.size())
+    return found;
+  std::map<std::size_t, std::vector<std::uint32_t>> cells_of;
+  for (const auto &face : boundary_faces)
+    cells_of[face[0]];
+  for (std::size_t e = 0; e < cells->size(); ++e)
+    for (const std::uint32_t a : cells->connectivity[e])
+    {
+      const auto at = cells_of.find(a);
+      if (at != cells_of.end())
+        at->second.push_back(e);
+    }
+  for (const auto &face : boundary_faces)
+  {
+    found.push_back(no_cell);
+    for (const std::uint32_t e : cells_of[face[0]])
+    {
+      const auto &nodes = cells->connectivity[e];
+      if (std::all_of(face.begin(), face.end(),
+                      [&](const std::size_t a) {
+                        return std::find(nodes.begin(), nodes.end(), a) !=
+                               nodes.end();
+                      }))
+        found.back() = e;
+    }
+  }
+  return found;
+}
+
+std::vector<std::array<std::size_t, 8>> FemBody::cells_behind_faces() const
+{
+  std::vector<std::array<std::size_t, 8>> behind;
+  for (const std::uint32_t e : cell_of_faces())
+  {
+    behind.emplace_back();
+    if (e != no_cell)
+      std::copy(cells->connectivity[e].begin(), cells->connectivity[e].end(),
+                behind.back().begin());
+  }
+  return behind;
+}
+
+std::vector<double>
+FemBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
+{
+  // Of the cells behind the faces around each node, in the mean.
+  std::vector<std::int64_t> number(nodal_state.size(), -1);
+  for (std::size_t k = 0; k < some_nodes.size(); ++k)
+    number[some_nodes[k]] = k;
+  const std::vector<std::uint32_t> &cell_of = cell_of_faces();
+  std::vector<std::size_t> faces, needed;
+  for (std::size_t f = 0; f < boundary_faces.size(); ++f)
+    if (std::any_of(boundary_faces[f].begin(), boundary_faces[f].end(),
+                    [&](const std::size_t a) { return number[a] >= 0; }))
+    {
+      faces.push_back(f);
+      needed.push_back(cell_of[f]);
+    }
+  const std::vector<double> of_faces = cells->flow_stress(needed);
+  std::vector<double> mean(some_nodes.size(), 0.);
+  std::vector<int> n_faces(some_nodes.size(), 0);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    for (const std::size_t a : boundary_faces[faces[k]])
+      if (number[a] >= 0)
+      {
+        mean[number[a]] += of_faces[k];
+        ++n_faces[number[a]];
+      }
+  for (std::size_t k = 0; k < mean.size(); ++k)
+    mean[k] = n_faces[k] > 0 ? mean[k] / n_faces[k] : 1e300;
+  return mean;
 }
 } // namespace sabot

@@ -4,6 +4,7 @@
 #include "sabot/bodies/body_report.h"
 #include "sabot/bodies/fem/b_bar.h"
 #include "sabot/bodies/fem/one_point.h"
+#include "sabot/bodies/flow_stress.h"
 #include "sabot/kernels/polar.h"
 #include "sabot/kernels/stress_update.h"
 
@@ -152,9 +153,9 @@ void Hexahedra::update_points(const std::size_t begin, const std::size_t m,
     const std::size_t k = point - begin;
     double step = batch.step[k];
     if (stiffens)
-      step /= std::sqrt(std::max(
-          1., *std::max_element(&batch.stiffening[k],
-                                &batch.stiffening[k] + n_points)));
+      step /= std::sqrt(
+          std::max(1., *std::max_element(&batch.stiffening[k],
+                                         &batch.stiffening[k] + n_points)));
     note_step(point / n_points, step);
   }
 }
@@ -322,6 +323,25 @@ void Hexahedra::shift_state(const std::string &name,
   const std::size_t first = state_row(name) * stride;
   for (std::size_t q = 0; q < size() * n_points; ++q)
     state_data[first + q] += change[q / n_points];
+}
+
+std::vector<double>
+Hexahedra::flow_stress(const std::vector<std::size_t> &some) const
+{
+  MaterialPoints points(*material);
+  for (const std::size_t e : some)
+    for (std::size_t q = e * n_points; q < (e + 1) * n_points; ++q)
+      points.add(-(stress_data[q] + stress_data[stride + q] +
+                   stress_data[2 * stride + q]) /
+                     3.,
+                 determinant(gradient(q)),
+                 [&](const std::size_t row)
+                 { return state_data[row * stride + q]; });
+  const std::vector<double> of_points = points.flow_stress();
+  std::vector<double> of_cells(some.size(), 0.);
+  for (std::size_t k = 0; k < of_points.size(); ++k)
+    of_cells[k / n_points] += of_points[k] / n_points;
+  return of_cells;
 }
 
 void Hexahedra::visit_state(StateVisitor &visitor)

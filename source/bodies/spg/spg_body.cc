@@ -2,6 +2,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/bodies/body_report.h"
+#include "sabot/bodies/flow_stress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -231,8 +232,20 @@ ContactSurface SpgBody::contact_surface() const
     }
   surface.bulk_modulus = material->bulk_modulus();
   surface.spacing = mean_spacing;
-  surface.yield_stress = material->initial_yield_stress();
   return surface;
+}
+
+std::vector<double>
+SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
+{
+  const std::size_t n = nodal_state.n_owned;
+  MaterialPoints points(*material);
+  for (const std::size_t i : some_nodes)
+    points.add(-(stress(0, i) + stress(1, i) + stress(2, i)) / 3.,
+               determinant(gradient[i]) * kernel_volume[i] /
+                   reference_volume[i],
+               [&](const std::size_t row) { return state_data[row * n + i]; });
+  return points.flow_stress();
 }
 
 SurfacePoint SpgBody::surface_point(const std::size_t i) const

@@ -51,6 +51,10 @@ public:
     return surface_version;
   }
 
+  std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;
+  std::vector<double>
+  flow_stress(const std::vector<std::size_t> &some_nodes) const override;
+
   std::string item_name() const override { return "cells"; }
   GlobalIndex n_items() const override { return n_global_cells; }
   std::string step_timer_name() const override { return "fem step"; }
@@ -80,6 +84,10 @@ private:
   int symmetry_axis(const unsigned int id) const;
   void
   set_up_boundary(const std::unordered_map<GlobalIndex, std::uint32_t> &local);
+  /** Cells behind the boundary faces; no_cell where another rank's nodes have
+      it. */
+  static constexpr std::uint32_t no_cell = -1;
+  const std::vector<std::uint32_t> &cell_of_faces() const;
   // fem_erosion.cc
   void set_up_erosion();
   /** Active cells that meet a criterion, ascending. */
@@ -110,6 +118,8 @@ private:
   std::map<std::size_t, int> n_symmetry_planes;
   std::vector<std::array<std::size_t, 4>> boundary_faces;
   std::vector<GlobalIndex> boundary_face_id;
+  /** Of boundary_faces; found when asked for, then kept. */
+  mutable std::vector<std::uint32_t> known_cell_of_faces;
   double typical_spacing = 0.;
   unsigned int surface_version = 0; // the same on every rank
   /** Present where cells may erode. "Initial" counts this rank's cells as

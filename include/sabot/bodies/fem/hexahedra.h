@@ -70,6 +70,8 @@ public:
   /** Mean of a scalar state variable over the points of each cell; empty when
       the material does not have it. */
   std::vector<double> cell_state(const std::string &name) const;
+  /** Present flow stress of some cells [Pa], the mean of their points. */
+  std::vector<double> flow_stress(const std::vector<std::size_t> &some) const;
   /** Add the change of each cell to a scalar state variable at its points. */
   void shift_state(const std::string &name, const std::vector<double> &change);
 

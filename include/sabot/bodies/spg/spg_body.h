@@ -61,6 +61,8 @@ public:
   void visit_state(StateVisitor &visitor) override;
 
   ContactSurface contact_surface() const override;
+  std::vector<double>
+  flow_stress(const std::vector<std::size_t> &some_nodes) const override;
   SurfacePoint surface_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
