@@ -99,7 +99,11 @@ void ParticleContact::search()
           node.share * mine.spacing * mine.spacing / (node.is_sound ? 2. : 1.);
       const auto old = std::lower_bound(groups.begin(), groups.end(), group);
       if (old != groups.end() && !(group < *old))
+      {
         group.memory = old->memory;
+        group.stored = old->stored;
+        group.spring = old->spring;
+      }
       my_groups.push_back(group);
     }
   const std::vector<Group> all = gather_all(my_groups, communicator);
@@ -273,6 +277,23 @@ void ParticleContact::balance_weights(const Slots &at, const Vec n)
     weight[m] /= sum;
 }
 
+double ParticleContact::backed_force(Group &group, const double k,
+                                     const double depth, const double rate,
+                                     const double dt)
+{
+  // Between crumbled surfaces normals and weights change with each other's
+  // disorder and k depth has no potential: a spring might push further than it
+  // was pressed. It may be pressed as deep as the work it has taken says; where
+  // surfaces are whole, that is its depth to round-off.
+  group.stored -= 0.5 * (group.spring + k * depth) * rate * dt;
+  group.stored = std::max(0., group.stored);
+  const double claimed = 0.5 * k * depth * depth;
+  group.spring =
+      k * depth *
+      (group.stored < claimed ? std::sqrt(group.stored / claimed) : 1.);
+  return group.spring;
+}
+
 void ParticleContact::add_forces(const double dt)
 {
   update_halo();
@@ -296,6 +317,7 @@ void ParticleContact::add_forces(const double dt)
     if (standing.fade <= 0. || standing.gap >= 0.)
     {
       memory.depth = memory.offset = 0.;
+      group.stored = group.spring = 0.;
       continue;
     }
     const double *const w = weight.data() - at.first_member;
@@ -316,8 +338,11 @@ void ParticleContact::add_forces(const double dt)
     const ContactForces force =
         contact_forces(options, k, reduced_mass, depth, v, standing.normal,
                        largest_friction(group, at), dt);
-    const Vec fn = standing.fade * force.normal,
-              ft = standing.fade * force.friction;
+    const double part =
+        standing.fade *
+        backed_force(group, k, depth, dot(v, standing.normal), dt) /
+        (k * depth);
+    const Vec fn = part * force.normal, ft = part * force.friction;
     normal_force[at.node] += fn;
     friction_force[at.node] += ft;
     for (std::size_t m = at.first_member; m < at.last_member; ++m)
