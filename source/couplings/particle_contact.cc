@@ -102,7 +102,6 @@ void ParticleContact::search()
       {
         group.memory = old->memory;
         group.stored = old->stored;
-        group.spring = old->spring;
       }
       my_groups.push_back(group);
     }
@@ -277,21 +276,18 @@ void ParticleContact::balance_weights(const Slots &at, const Vec n)
     weight[m] /= sum;
 }
 
-double ParticleContact::backed_force(Group &group, const double k,
-                                     const double depth, const double rate,
-                                     const double dt)
+double ParticleContact::backed_part(Group &group, const Vec spring, const Vec v,
+                                    const double k, const double dt)
 {
   // Between crumbled surfaces normals and weights change with each other's
-  // disorder and k depth has no potential: a spring might push further than it
-  // was pressed. It may be pressed as deep as the work it has taken says; where
-  // surfaces are whole, that is its depth to round-off.
-  group.stored -= 0.5 * (group.spring + k * depth) * rate * dt;
-  group.stored = std::max(0., group.stored);
-  const double claimed = 0.5 * k * depth * depth;
-  group.spring =
-      k * depth *
-      (group.stored < claimed ? std::sqrt(group.stored / claimed) : 1.);
-  return group.spring;
+  // disorder and the force has no potential: a spring may push its way apart
+  // further than it was pressed. It gives back what it took, and what one
+  // step's motion is worth.
+  const double work = dot(spring, v) * dt;
+  const double available = group.stored + 0.5 * k * norm_square(v) * dt * dt;
+  const double part = work > available ? available / work : 1.;
+  group.stored = std::max(0., group.stored - part * work);
+  return part;
 }
 
 void ParticleContact::add_forces(const double dt)
@@ -317,7 +313,7 @@ void ParticleContact::add_forces(const double dt)
     if (standing.fade <= 0. || standing.gap >= 0.)
     {
       memory.depth = memory.offset = 0.;
-      group.stored = group.spring = 0.;
+      group.stored = 0.;
       continue;
     }
     const double *const w = weight.data() - at.first_member;
@@ -339,9 +335,9 @@ void ParticleContact::add_forces(const double dt)
         contact_forces(options, k, reduced_mass, depth, v, standing.normal,
                        largest_friction(group, at), dt);
     const double part =
-        standing.fade *
-        backed_force(group, k, depth, dot(v, standing.normal), dt) /
-        (k * depth);
+        standing.fade * backed_part(group,
+                                    standing.fade * k * depth * standing.normal,
+                                    v, k, dt);
     const Vec fn = part * force.normal, ft = part * force.friction;
     normal_force[at.node] += fn;
     friction_force[at.node] += ft;
