@@ -20,7 +20,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 if [ ${#studies[@]} -eq 0 ]; then
-  studies=(projectile-taylor spacing friction failure-strain zone projectile
+  studies=(projectile-taylor spacing unyielding friction failure-strain zone projectile
     symmetry physics method projectile-spg)
 fi
 

@@ -25,7 +25,7 @@ PAPER = {
     ("zone", "30 mm"): "1 % error",
     ("zone", "60 mm"): "nearly identical to 30 mm",
 }
-ORDER = ("spacing", "friction", "failure-strain", "zone", "projectile",
+ORDER = ("spacing", "unyielding", "friction", "failure-strain", "zone", "projectile",
          "projectile-spg",
          "symmetry", "physics", "method", "projectile-taylor")
 
@@ -81,7 +81,9 @@ def print_study(study):
     has_paper = any((p, row[p]) in PAPER for row in study.rows
                     for p in study.parameters)
     head = list(study.parameters)
-    head += ["residual velocity m/s", "against 344 %"] if has_speed else [
+    has_measured = has_speed and study.name != "unyielding"
+    head += ["residual velocity m/s"] + (
+        ["against 344 %"] if has_measured else []) if has_speed else [
         q for q in study.quantities]
     head += ["paper"] if has_paper else []
     head += ["energy residual %", "steps", "CPU s"]
@@ -90,12 +92,15 @@ def print_study(study):
         cells = [row[p] for p in study.parameters]
         done = row["status"] == "completed"
         if not done:
-            cells += [row["status"] + ": " + row["reason"], ""]
+            cells += [row["status"] + ": " + row["reason"]]
+            cells += [""] if has_measured else []
             if not has_speed:
-                cells = cells[:-1] + [""] * (len(study.quantities) - 1)
+                cells += [""] * (len(study.quantities) - 1)
         elif has_speed:
             v = float(row["residual velocity [m/s]"])
-            cells += ["%.1f" % v, "%+.1f" % (100 * (v - MEASURED) / MEASURED)]
+            cells += ["%.1f" % v]
+            if has_measured:
+                cells += ["%+.1f" % (100 * (v - MEASURED) / MEASURED)]
         else:
             cells += [number(row[q], "%.5g") for q in study.quantities]
         if has_paper:
