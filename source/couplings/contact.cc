@@ -285,7 +285,7 @@ void Contact::add_forces(const double dt)
         continue;
       group.memory.side = projection.face_normal;
       if (projection.gap > -1e-6 * group.spacing)
-        group.memory.depth = group.memory.offset = 0.;
+        group.memory.release();
     }
     return;
   }
@@ -297,7 +297,7 @@ void Contact::add_forces(const double dt)
     const std::ptrdiff_t f = holding_face(group, projection, dt);
     if (f < 0)
     {
-      group.memory.depth = group.memory.offset = 0.;
+      group.memory.release();
       group.wake = travelled + 0.99 * std::sqrt(projection.distance_square);
       continue;
     }
@@ -319,10 +319,11 @@ void Contact::add_forces(const double dt)
                             : group.area;
     const auto [fn, ft] = contact_forces(options, k, reduced_mass, depth, v, n,
                                          shear_limit(group) * area, dt);
-    normal_force[group.slot] += fn;
-    friction_force[group.slot] += ft;
-    push_touched(fn, normal_force);
-    push_touched(ft, friction_force);
+    const double part = backed_part(group.memory, k * depth * n, v, k, dt);
+    normal_force[group.slot] += part * fn;
+    friction_force[group.slot] += part * ft;
+    push_touched(part * fn, normal_force);
+    push_touched(part * ft, friction_force);
     penetration_over_spacing =
         std::max(penetration_over_spacing, depth / group.spacing);
   }

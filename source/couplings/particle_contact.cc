@@ -99,10 +99,7 @@ void ParticleContact::search()
           node.share * mine.spacing * mine.spacing / (node.is_sound ? 2. : 1.);
       const auto old = std::lower_bound(groups.begin(), groups.end(), group);
       if (old != groups.end() && !(group < *old))
-      {
         group.memory = old->memory;
-        group.stored = old->stored;
-      }
       my_groups.push_back(group);
     }
   const std::vector<Group> all = gather_all(my_groups, communicator);
@@ -276,20 +273,6 @@ void ParticleContact::balance_weights(const Slots &at, const Vec n)
     weight[m] /= sum;
 }
 
-double ParticleContact::backed_part(Group &group, const Vec spring, const Vec v,
-                                    const double k, const double dt)
-{
-  // Between crumbled surfaces normals and weights change with each other's
-  // disorder and the force has no potential: a spring may push its way apart
-  // further than it was pressed. It gives back what it took, and what one
-  // step's motion is worth.
-  const double work = dot(spring, v) * dt;
-  const double available = group.stored + 0.5 * k * norm_square(v) * dt * dt;
-  const double part = work > available ? available / work : 1.;
-  group.stored = std::max(0., group.stored - part * work);
-  return part;
-}
-
 void ParticleContact::add_forces(const double dt)
 {
   update_halo();
@@ -307,13 +290,12 @@ void ParticleContact::add_forces(const double dt)
     {
       // Where everything starts: bodies may touch already.
       if (standing.gap > -1e-6 * group.spacing)
-        memory.depth = memory.offset = 0.;
+        memory.release();
       continue;
     }
     if (standing.fade <= 0. || standing.gap >= 0.)
     {
-      memory.depth = memory.offset = 0.;
-      group.stored = 0.;
+      memory.release();
       continue;
     }
     const double *const w = weight.data() - at.first_member;
@@ -335,7 +317,7 @@ void ParticleContact::add_forces(const double dt)
         contact_forces(options, k, reduced_mass, depth, v, standing.normal,
                        largest_friction(group, at), dt);
     const double part =
-        standing.fade * backed_part(group,
+        standing.fade * backed_part(memory,
                                     standing.fade * k * depth * standing.normal,
                                     v, k, dt);
     const Vec fn = part * force.normal, ft = part * force.friction;

@@ -45,6 +45,16 @@ struct ContactMemory
   Vec side = {};      // outward normal of the surface last met; zero: none yet
   double depth = -1.; // at the last step [m]; negative: not known
   double offset = 0.; // part of the depth that does not repel [m]
+  /** Work that the spring has taken since they met and may give back [J], and
+      its force on the node at the last step [N]. */
+  double stored = 0.;
+  Vec spring = {};
+
+  void release()
+  {
+    depth = offset = stored = 0.;
+    spring = Vec{};
+  }
 
   /** Part of @p new_depth that repels. @p largest_change: by motion alone. */
   double effective_depth(const double new_depth, const double largest_change)
@@ -58,6 +68,27 @@ struct ContactMemory
     return new_depth - offset;
   }
 };
+
+/**
+ * Part of a spring's force that the work it has taken bears; keeps the books in
+ * @p memory. Between crumbled or crumpled surfaces normals and weights change
+ * with each other's disorder and k depth has no potential: a spring may push
+ * its way apart further than it was pressed. It gives back what it took, and
+ * what one step's motion is worth.
+ * @param spring: on the node [N]; @p v: of the node against what it touches.
+ */
+inline double backed_part(ContactMemory &memory, const Vec spring, const Vec v,
+                          const double k, const double dt)
+{
+  // The mean of two steps' forces along the way between them: of a constant
+  // stiffness before a plane this is k depth^2/2 to round-off.
+  const double work = 0.5 * dot(memory.spring + spring, v) * dt;
+  const double available = memory.stored + 0.5 * k * norm_square(v) * dt * dt;
+  const double part = work > available ? available / work : 1.;
+  memory.stored = std::max(0., memory.stored - part * work);
+  memory.spring = part * spring;
+  return part;
+}
 
 /** Forces on a node that is held by a surface. */
 struct ContactForces

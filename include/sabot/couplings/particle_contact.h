@@ -49,8 +49,6 @@ private:
     double stiffness, spacing;
     double area; // over which friction may act [m^2]
     ContactMemory memory;
-    /** Work that the spring has taken since they met and may give back [J]. */
-    double stored;
 
     bool operator<(const Group &o) const
     {
@@ -74,10 +72,6 @@ private:
   /** Friction that the node and what it touches bear [N]. */
   double largest_friction(const Group &group, const Slots &at) const;
   void update_halo();
-  /** Part of the spring's force that its stored work bears; keeps the books.
-      @p spring: on the node; @p v: of the node against what it touches. */
-  static double backed_part(Group &group, const Vec spring, const Vec v,
-                            const double k, const double dt);
   /** Weights go to weight[]; fade 0: beyond the surface. */
   Standing locate(const Group &group, const Slots &slots);
   /** Make weight[] sum to 1 and, as far as it can, to the node's place in the
