@@ -241,6 +241,76 @@ TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
   EXPECT_GT(gap, 2e-3) << low;
 }
 
+/** A block that is being stretched and whose bonds all fail past a stretch. */
+struct BreakingBlock
+{
+  World world;
+  SpgBody *body;
+  explicit BreakingBlock(std::shared_ptr<const Material> material,
+                         const double critical_stretch)
+  {
+    SpgOptions options;
+    options.critical_effective_plastic_strain = 0.45;
+    options.critical_stretch = critical_stretch;
+    options.failure_check_interval = 1;
+    options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+    body = &add_block(world, {{3e-3, 3e-3, 3e-3}}, 1e-3, 0., options, material);
+    NodalState &n = body->nodes();
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+    {
+      body->set_state("effective plastic strain", i, 1.);
+      n.velocity[i] = 2e5 * n.reference_position[i]; // faster than waves
+    }
+    world.integrator.initialize();
+  }
+  /** Largest error of the total energy over what the bonds held, in steps of
+      @p dt until well after they failed; largest force at that moment. */
+  double energy_error(const double dt, double &force_after, double &failure)
+  {
+    const double energy = world.total_energy();
+    double worst = 0.;
+    while (world.integrator.time < 1e-8)
+    {
+      const double before = measure(*body, "bonds broken fraction");
+      world.integrator.advance(dt);
+      world.integrator.update_topology(++world.step);
+      if (before < 1. && measure(*body, "bonds broken fraction") == 1.)
+      {
+        force_after = 0.;
+        for (std::size_t i = 0; i < body->nodes().n_owned; ++i)
+          force_after = std::max(force_after, norm(body->nodes().force[i]));
+      }
+      worst = std::max(worst, std::abs(world.total_energy() - energy));
+    }
+    EnergyLedger e;
+    body->add_energies(e);
+    failure = e.failure.value();
+    return worst / failure;
+  }
+};
+
+TEST(Spg, forces_and_ledger_lose_failed_bonds_at_once)
+{
+  const auto strong = std::make_shared<HardeningPlasticity>(
+      ElasticConstants{2700., 68.9e9, 0.33},
+      HardeningParameters{324e9, 150e6, 1.});
+  double error[2], force_after[2] = {1., 1.}, failure[2], internal[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    BreakingBlock block(strong, 1.001);
+    error[i] =
+        block.energy_error(i == 0 ? 4e-10 : 2e-10, force_after[i], failure[i]);
+    internal[i] = block.world.energies()[1];
+    EXPECT_EQ(measure(*block.body, "bonds broken fraction"), 1.);
+    EXPECT_EQ(force_after[i], 0.);
+    // Nothing flows: all that stresses and residuals took is lost.
+    EXPECT_NEAR(failure[i], internal[i], 0.01 * internal[i]);
+  }
+  // Second order in the step: what is left is that of central difference.
+  EXPECT_LT(error[0], 1e-5);
+  EXPECT_LT(error[1], error[0] / 3.);
+}
+
 TEST(Spg, coincident_particles_are_refused)
 {
   ParticleCloud cloud = make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, 1e-3);
