@@ -1,5 +1,4 @@
 #include "sabot/bodies/spg/spg_body.h"
-#include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/stress_update.h"
 
 #include <algorithm>
@@ -285,20 +284,7 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
     }
   if (!stiffening.empty())
     points.stiffening = &stiffening[begin];
-  material->update(points);
-
-  // A particle that lost a direction carries no tension across the gap.
-  for (std::size_t k = 0; k < m; ++k)
-    if (weak[begin + k])
-    {
-      double s[6];
-      for (int c = 0; c < 6; ++c)
-        s[c] = stress[c][k];
-      cut_tension(s);
-      for (int c = 0; c < 6; ++c)
-        stress[c][k] = s[c];
-    }
-
+  update_material(points, begin);
   half_work(m, old_stress, strain, batch.half_volume, &internal_energy[begin]);
   for (std::size_t k = 0; k < m; ++k)
   {

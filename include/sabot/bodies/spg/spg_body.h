@@ -182,6 +182,13 @@ private:
   void gather_forces();
   const double *state_array(const std::string &name) const;
 
+  // spg_cracks.cc
+  /** The material's update; particles that lost a direction open cracks before
+      they flow. @p points: of the particles from @p begin on. */
+  void update_material(const MaterialBatch &points, const std::size_t begin);
+  /** Set uncracked_strain of the batch; false where no crack opens. */
+  bool open_cracks(const MaterialBatch &points, const std::size_t begin);
+
   static constexpr std::size_t batch_size = 64;
   /** Fraction of the intact middle eigenvalue of the moment matrix below which
       a direction counts as lost (doc/theory-spg.md). */
@@ -265,6 +272,9 @@ private:
     double trial_square[batch_size], old_trial[batch_size],
         old_square[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
+    // Of batches with particles that lost a direction
+    double old_stress[6][batch_size], uncracked_strain[6][batch_size];
+    bool is_cracked[batch_size];
     Mat residual_on_bond[batch_size];     // sum phi e (x) dx
     Mat residual_on_residual[batch_size]; // sum phi e (x) e
     Mat velocity_gradient[batch_size];    // F_new F_old^-1 - 1
@@ -272,6 +282,7 @@ private:
   };
   Batch batch;
   std::vector<double *> batch_states; // one pointer per state array
+  std::vector<double> old_states;     // of a batch with cracks
 };
 } // namespace sabot
 
