@@ -169,7 +169,9 @@ TEST(Tie, leaders_do_not_feel_bonds_that_failed)
     EXPECT_LT(norm(sum), 1e-12 * size);
     EXPECT_LT(norm(change - followers), 1e-12 * size);
     if (broken > 0.)
+    {
       EXPECT_GT(norm(followers), 0.01 * size);
+    }
   }
   // The same after some steps of a half-broken body.
   for (int step = 0; step < 100; ++step)
