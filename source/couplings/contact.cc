@@ -166,9 +166,7 @@ void Contact::search()
     group.area_vector = (1. / sides) * c[first].area;
     groups.push_back(group);
   }
-  normal_force.assign(halo.size(), Vec{});
-  friction_force.assign(halo.size(), Vec{});
-  total_force.assign(halo.size(), Vec{});
+  forces.resize(halo.size());
   touched_number.assign(halo.size(), -1);
   if (options.limit_by_yield)
     halo.find_flow_stress(flow_stress);
@@ -273,8 +271,7 @@ std::ptrdiff_t Contact::holding_face(Group &group, FaceProjection &best,
 void Contact::add_forces(const double dt)
 {
   halo.update();
-  std::fill(normal_force.begin(), normal_force.end(), Vec{});
-  std::fill(friction_force.begin(), friction_force.end(), Vec{});
+  forces.clear();
   if (dt <= 0.)
   {
     // Where everything starts: bodies may touch already.
@@ -320,34 +317,24 @@ void Contact::add_forces(const double dt)
     const auto [fn, ft] = contact_forces(options, k, reduced_mass, depth, v, n,
                                          shear_limit(group) * area, dt);
     const double part = backed_part(group.memory, k * depth * n, v, k, dt);
-    normal_force[group.slot] += part * fn;
-    friction_force[group.slot] += part * ft;
-    push_touched(part * fn, normal_force);
-    push_touched(part * ft, friction_force);
+    forces.normal[group.slot] += part * fn;
+    forces.friction[group.slot] += part * ft;
+    push_touched(part * fn, forces.normal);
+    push_touched(part * ft, forces.friction);
     penetration_over_spacing =
         std::max(penetration_over_spacing, depth / group.spacing);
   }
-  for (std::size_t s = 0; s < halo.size(); ++s)
-    total_force[s] = normal_force[s] + friction_force[s];
-  halo.add_to_bodies(total_force);
+  forces.add_to_bodies(halo);
 }
 
 void Contact::accumulate_work(const double half_dt)
 {
-  for (std::size_t s = 0; s < halo.n_owned(); ++s)
-    if (norm_square(normal_force[s]) > 0.)
-    {
-      const Vec v = half_dt * halo.body_velocity(s);
-      contact_work.add(dot(normal_force[s], v));
-      friction_work.add(dot(friction_force[s], v));
-    }
+  forces.accumulate_work(halo, half_dt);
 }
 
 void Contact::add_energies(EnergyLedger &ledger) const
 {
-  // What the forces took from the bodies.
-  ledger.contact.subtract(contact_work);
-  ledger.friction.subtract(friction_work);
+  forces.add_energies(ledger);
 }
 
 Measures Contact::measure() const
@@ -355,18 +342,15 @@ Measures Contact::measure() const
   double penetration = penetration_over_spacing;
   MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
-  ExactSum work[2] = {contact_work, friction_work};
-  ExactSum::reduce({&work[0], &work[1]}, communicator);
-  return {{"penetration max over spacing", "1", penetration},
-          {"initial penetration over spacing", "1", initial_over_spacing},
-          {"contact energy", "J", -work[0].value()},
-          {"friction energy", "J", -work[1].value()}};
+  Measures measures = {
+      {"penetration max over spacing", "1", penetration},
+      {"initial penetration over spacing", "1", initial_over_spacing}};
+  forces.add_measures(measures, communicator);
+  return measures;
 }
 
 void Contact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("contact work", contact_work);
-  visitor.visit_value("friction work", friction_work);
   visitor.visit_value("travelled", travelled);
   visitor.visit_value("surface version", surface_version);
   visitor.visit_value("penetration", penetration_over_spacing);
@@ -392,9 +376,7 @@ void Contact::visit_state(StateVisitor &visitor)
     restore_groups(saved, face_nodes);
   }
   visitor.visit_resized("flow stress", flow_stress);
-  // Half of their work along the next step is still to be counted.
-  visitor.visit_array("normal force", normal_force);
-  visitor.visit_array("friction force", friction_force);
+  forces.visit_state(visitor);
 }
 
 void Contact::restore_groups(const std::vector<SavedGroup> &saved,
@@ -431,9 +413,7 @@ void Contact::restore_groups(const std::vector<SavedGroup> &saved,
     }
     groups.push_back(group);
   }
-  normal_force.assign(halo.size(), Vec{});
-  friction_force.assign(halo.size(), Vec{});
-  total_force.assign(halo.size(), Vec{});
+  forces.resize(halo.size());
   touched_number.assign(halo.size(), -1);
 }
 } // namespace sabot

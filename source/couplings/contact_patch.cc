@@ -54,7 +54,8 @@ void Contact::spread_over_patch(const Group &group,
   const double radius = group.patch_radius;
   const Vec held = projection.face_normal, p = halo.position[group.slot],
             centre = p - projection.along * held;
-  std::vector<SymmetryPlane> near;
+  std::vector<SymmetryPlane> &near = near_planes;
+  near.clear();
   for (const SymmetryPlane &plane : symmetry_planes)
     if (std::abs(centre[plane.axis] - plane.coordinate) < radius)
       near.push_back(plane);
@@ -75,7 +76,7 @@ void Contact::spread_over_patch(const Group &group,
     return x;
   };
 
-  std::vector<Touched> patch;
+  patch.clear();
   patch_points.clear();
   patch_areas.clear();
   Vec mean = {};
@@ -167,9 +168,9 @@ double Contact::shear_limit(const Group &group) const
   return std::min(flow_stress[group.slot], its) / std::sqrt(3.);
 }
 
-void Contact::push_touched(const Vec force, AlignedVector<Vec> &forces) const
+void Contact::push_touched(const Vec force, AlignedVector<Vec> &to) const
 {
   for (const Touched &t : touched)
-    forces[t.slot] -= flipped(t.weight * force, t.mirrored);
+    to[t.slot] -= flipped(t.weight * force, t.mirrored);
 }
 } // namespace sabot

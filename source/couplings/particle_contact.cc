@@ -163,9 +163,7 @@ void ParticleContact::build_halo()
   weight.resize(most);
   along_normal.resize(most);
   surface.resize(halo.size());
-  normal_force.assign(halo.size(), Vec{});
-  friction_force.assign(halo.size(), Vec{});
-  total_force.assign(halo.size(), Vec{});
+  forces.resize(halo.size());
 }
 
 void ParticleContact::update_halo()
@@ -276,8 +274,7 @@ void ParticleContact::balance_weights(const Slots &at, const Vec n)
 void ParticleContact::add_forces(const double dt)
 {
   update_halo();
-  std::fill(normal_force.begin(), normal_force.end(), Vec{});
-  std::fill(friction_force.begin(), friction_force.end(), Vec{});
+  forces.clear();
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     Group &group = groups[g];
@@ -321,37 +318,27 @@ void ParticleContact::add_forces(const double dt)
                                     standing.fade * k * depth * standing.normal,
                                     v, k, dt);
     const Vec fn = part * force.normal, ft = part * force.friction;
-    normal_force[at.node] += fn;
-    friction_force[at.node] += ft;
+    forces.normal[at.node] += fn;
+    forces.friction[at.node] += ft;
     for (std::size_t m = at.first_member; m < at.last_member; ++m)
     {
-      normal_force[member_slots[m]] -= w[m] * fn;
-      friction_force[member_slots[m]] -= w[m] * ft;
+      forces.normal[member_slots[m]] -= w[m] * fn;
+      forces.friction[member_slots[m]] -= w[m] * ft;
     }
     penetration_over_spacing =
         std::max(penetration_over_spacing, depth / group.spacing);
   }
-  for (std::size_t s = 0; s < halo.size(); ++s)
-    total_force[s] = normal_force[s] + friction_force[s];
-  halo.add_to_bodies(total_force);
+  forces.add_to_bodies(halo);
 }
 
 void ParticleContact::accumulate_work(const double half_dt)
 {
-  for (std::size_t s = 0; s < halo.n_owned(); ++s)
-    if (norm_square(normal_force[s]) > 0.)
-    {
-      const Vec v = half_dt * halo.body_velocity(s);
-      contact_work.add(dot(normal_force[s], v));
-      friction_work.add(dot(friction_force[s], v));
-    }
+  forces.accumulate_work(halo, half_dt);
 }
 
 void ParticleContact::add_energies(EnergyLedger &ledger) const
 {
-  // What the forces took from the bodies.
-  ledger.contact.subtract(contact_work);
-  ledger.friction.subtract(friction_work);
+  forces.add_energies(ledger);
 }
 
 Measures ParticleContact::measure() const
@@ -359,18 +346,15 @@ Measures ParticleContact::measure() const
   double penetration = penetration_over_spacing;
   MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
-  ExactSum work[2] = {contact_work, friction_work};
-  ExactSum::reduce({&work[0], &work[1]}, communicator);
-  return {{"penetration max over spacing", "1", penetration},
-          {"initial penetration over spacing", "1", initial_over_spacing},
-          {"contact energy", "J", -work[0].value()},
-          {"friction energy", "J", -work[1].value()}};
+  Measures measures = {
+      {"penetration max over spacing", "1", penetration},
+      {"initial penetration over spacing", "1", initial_over_spacing}};
+  forces.add_measures(measures, communicator);
+  return measures;
 }
 
 void ParticleContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("contact work", contact_work);
-  visitor.visit_value("friction work", friction_work);
   visitor.visit_value("travelled", travelled);
   visitor.visit_value("allowance", allowance);
   visitor.visit_value("penetration", penetration_over_spacing);
@@ -380,8 +364,6 @@ void ParticleContact::visit_state(StateVisitor &visitor)
   if (visitor.is_restoring())
     build_halo();
   visitor.visit_resized("flow stress", flow_stress);
-  // Half of their work along the next step is still to be counted.
-  visitor.visit_array("normal force", normal_force);
-  visitor.visit_array("friction force", friction_force);
+  forces.visit_state(visitor);
 }
 } // namespace sabot

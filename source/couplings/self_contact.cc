@@ -160,16 +160,13 @@ void SelfContact::build_halo()
     pair.slot[1] = halo.slot(pair.second);
   }
   softening.resize(halo.size());
-  normal_force.assign(halo.size(), Vec{});
-  friction_force.assign(halo.size(), Vec{});
-  total_force.assign(halo.size(), Vec{});
+  forces.resize(halo.size());
 }
 
 void SelfContact::add_forces(const double dt)
 {
   halo.update();
-  std::fill(normal_force.begin(), normal_force.end(), Vec{});
-  std::fill(friction_force.begin(), friction_force.end(), Vec{});
+  forces.clear();
   if (dt <= 0.)
     return;
   // The stiffness of all that touches a particle bounds its frequency; that of
@@ -199,54 +196,39 @@ void SelfContact::add_forces(const double dt)
         contact_forces(options, k, reduced_mass, pair.distance - distance,
                        halo.velocity[b] - halo.velocity[a],
                        (1. / distance) * offset, pair.largest_friction, dt);
-    normal_force[a] -= on_b.normal;
-    normal_force[b] += on_b.normal;
-    friction_force[a] -= on_b.friction;
-    friction_force[b] += on_b.friction;
+    forces.normal[a] -= on_b.normal;
+    forces.normal[b] += on_b.normal;
+    forces.friction[a] -= on_b.friction;
+    forces.friction[b] += on_b.friction;
   }
-  for (std::size_t s = 0; s < halo.size(); ++s)
-    total_force[s] = normal_force[s] + friction_force[s];
-  halo.add_to_bodies(total_force);
+  forces.add_to_bodies(halo);
 }
 
 void SelfContact::accumulate_work(const double half_dt)
 {
-  for (std::size_t s = 0; s < halo.n_owned(); ++s)
-    if (norm_square(normal_force[s]) > 0.)
-    {
-      const Vec v = half_dt * halo.body_velocity(s);
-      contact_work.add(dot(normal_force[s], v));
-      friction_work.add(dot(friction_force[s], v));
-    }
+  forces.accumulate_work(halo, half_dt);
 }
 
 void SelfContact::add_energies(EnergyLedger &ledger) const
 {
-  ledger.contact.subtract(contact_work);
-  ledger.friction.subtract(friction_work);
+  forces.add_energies(ledger);
 }
 
 Measures SelfContact::measure() const
 {
-  ExactSum work[2] = {contact_work, friction_work};
-  ExactSum::reduce({&work[0], &work[1]}, communicator);
-  return {{"loose particles", "1", double(n_loose)},
-          {"contact energy", "J", -work[0].value()},
-          {"friction energy", "J", -work[1].value()}};
+  Measures measures = {{"loose particles", "1", double(n_loose)}};
+  forces.add_measures(measures, communicator);
+  return measures;
 }
 
 void SelfContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("contact work", contact_work);
-  visitor.visit_value("friction work", friction_work);
   visitor.visit_value("travelled", travelled);
   visitor.visit_value("loose particles", n_loose);
   // A pair knows at which distance it was first met.
   visitor.visit_resized("pairs", pairs);
   if (visitor.is_restoring())
     build_halo();
-  // Half of their work along the next step is still to be counted.
-  visitor.visit_array("normal force", normal_force);
-  visitor.visit_array("friction force", friction_force);
+  forces.visit_state(visitor);
 }
 } // namespace sabot

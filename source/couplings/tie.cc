@@ -407,6 +407,20 @@ void Tie::add_forces(const double)
     leads.force[term.local] += term.weight * follower_force[term.slot];
 }
 
+void Tie::forward_changes()
+{
+  const NodalState &followers = bodies[follower]->nodes();
+  NodalState &leads = bodies[leader]->nodes();
+  AlignedVector<Vec> change(follower_force.size());
+  for (std::size_t s = 0; s < owned_followers.size(); ++s)
+    change[s] = followers.force[owned_followers[s]] - follower_force[s];
+  force_exchange.update(change.data());
+  for (std::size_t s = 0; s < change.size(); ++s)
+    follower_force[s] += change[s];
+  for (const Term &term : forces)
+    leads.force[term.local] += term.weight * change[term.slot];
+}
+
 void Tie::accumulate_work(const double half_dt)
 {
   const NodalState &followers = bodies[follower]->nodes(),

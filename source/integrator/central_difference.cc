@@ -111,8 +111,13 @@ void CentralDifference::compute_forces(const double dt)
 void CentralDifference::update_topology(const unsigned int step)
 {
   const auto timer = timers.scope("kernel update");
+  bool changed = false;
   for (auto &body : bodies)
-    body->update_topology(step, time);
+    changed |= body->update_topology(step, time);
+  // The half step that starts now feels what there is now.
+  if (changed)
+    for (auto &coupling : couplings)
+      coupling->forward_changes();
 }
 
 void CentralDifference::agree_on_problems(const std::string &problem) const

@@ -265,7 +265,7 @@ Run::Balance Run::balance_energy()
     coupling->add_energies(e);
   ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
                     &e.contact, &e.friction, &e.eroded, &e.external,
-                    &e.plastic_work, &e.tie},
+                    &e.plastic_work, &e.failure, &e.tie},
                    communicator);
   ExactSum total = e.kinetic;
   for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
@@ -290,6 +290,7 @@ Run::Balance Run::balance_energy()
             {"eroded", "J", e.eroded.value()},
             {"external", "J", e.external.value()},
             {"plastic work", "J", e.plastic_work.value()},
+            {"failure", "J", e.failure.value()},
             {"total", "J", balance.total},
             {"residual", "1", balance.residual},
             {"tie", "J", e.tie.value()}};
@@ -352,6 +353,7 @@ void Run::check_energy()
   const Measure *largest = nullptr;
   for (const Measure &m : ledger)
     if (m.unit == "J" && m.name != "total" && m.name != "plastic work" &&
+        m.name != "failure" &&
         (largest == nullptr ||
          !(std::abs(m.value) <= std::abs(largest->value))))
       largest = &m;

@@ -1,4 +1,4 @@
-#include "sabot/verification/world.h"
+#include "sabot/verification/balance.h"
 
 #include <gtest/gtest.h>
 
@@ -239,6 +239,176 @@ TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
       low = x[i - 1];
     }
   EXPECT_GT(gap, 2e-3) << low;
+}
+
+/** A block that is being stretched and whose bonds all fail past a stretch. */
+struct BreakingBlock
+{
+  World world;
+  SpgBody *body;
+  explicit BreakingBlock(std::shared_ptr<const Material> material,
+                         const double critical_stretch)
+  {
+    SpgOptions options;
+    options.critical_effective_plastic_strain = 0.45;
+    options.critical_stretch = critical_stretch;
+    options.failure_check_interval = 1;
+    options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+    body = &add_block(world, {{3e-3, 3e-3, 3e-3}}, 1e-3, 0., options, material);
+    NodalState &n = body->nodes();
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+    {
+      body->set_state("effective plastic strain", i, 1.);
+      n.velocity[i] = 2e5 * n.reference_position[i]; // faster than waves
+    }
+    world.integrator.initialize();
+  }
+  /** Largest error of the total energy over what the bonds held, in steps of
+      @p dt until well after they failed; largest force at that moment. */
+  double energy_error(const double dt, double &force_after, double &failure)
+  {
+    const double energy = world.total_energy();
+    double worst = 0.;
+    while (world.integrator.time < 1e-8)
+    {
+      const double before = measure(*body, "bonds broken fraction");
+      world.integrator.advance(dt);
+      world.integrator.update_topology(++world.step);
+      if (before < 1. && measure(*body, "bonds broken fraction") == 1.)
+      {
+        force_after = 0.;
+        for (std::size_t i = 0; i < body->nodes().n_owned; ++i)
+          force_after = std::max(force_after, norm(body->nodes().force[i]));
+      }
+      worst = std::max(worst, std::abs(world.total_energy() - energy));
+    }
+    EnergyLedger e;
+    body->add_energies(e);
+    failure = e.failure.value();
+    return worst / failure;
+  }
+};
+
+TEST(Spg, forces_and_ledger_lose_failed_bonds_at_once)
+{
+  const auto strong = std::make_shared<HardeningPlasticity>(
+      ElasticConstants{2700., 68.9e9, 0.33},
+      HardeningParameters{324e9, 150e6, 1.});
+  double error[2], force_after[2] = {1., 1.}, failure[2], internal[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    BreakingBlock block(strong, 1.001);
+    error[i] =
+        block.energy_error(i == 0 ? 4e-10 : 2e-10, force_after[i], failure[i]);
+    internal[i] = block.world.energies()[1];
+    EXPECT_EQ(measure(*block.body, "bonds broken fraction"), 1.);
+    EXPECT_EQ(force_after[i], 0.);
+    // Nothing flows: all that stresses and residuals took is lost.
+    EXPECT_NEAR(failure[i], internal[i], 0.01 * internal[i]);
+  }
+  // Second order in the step: what is left is that of central difference.
+  EXPECT_LT(error[0], 1e-5);
+  EXPECT_LT(error[1], error[0] / 3.);
+}
+
+/** One layer of particles: all have lost the direction across it. */
+SpgBody &add_sheet(World &world, std::shared_ptr<const Material> material)
+{
+  const double h = 1e-3;
+  ParticleCloud cloud;
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 5; ++i)
+      cloud.position.push_back({{i * h, j * h, 0.}});
+  cloud.volume.assign(cloud.position.size(), h * h * h);
+  cloud.spacing = {{h, h, h}};
+  cloud.on_face.assign(cloud.position.size(), 0);
+  SpgOptions options;
+  options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+  world.bodies.push_back(
+      std::make_unique<SpgBody>("sheet", 0, cloud, material, options));
+  world.distribute();
+  return static_cast<SpgBody &>(*world.bodies[0]);
+}
+
+struct Energies
+{
+  double internal, plastic, failure;
+  explicit Energies(const SpgBody &body)
+  {
+    EnergyLedger e;
+    body.add_energies(e);
+    internal = e.internal.value();
+    plastic = e.plastic_work.value();
+    failure = e.failure.value();
+  }
+};
+
+TEST(Spg, a_torn_particle_does_not_flow)
+{
+  World world;
+  SpgBody &body = add_sheet(world, aluminium_6061());
+  deform(body, Mat::identity(), 0.);
+  for (int step = 1; step <= 20; ++step)
+    deform(
+        body,
+        {{vec(1. + 0.02 * step, 0, 0), vec(0.01 * step, 1, 0), vec(0, 0, 1)}},
+        1e-8);
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+  {
+    EXPECT_TRUE(body.is_weak(i));
+    EXPECT_EQ(body.state("effective plastic strain", i), 0.);
+    EXPECT_EQ(body.state("temperature", i), 294.);
+  }
+  const Energies e(body);
+  EXPECT_EQ(e.plastic, 0.);
+  EXPECT_NEAR(e.internal, 0., 1e-12);
+  EXPECT_NEAR(e.failure, 0., 1e-12);
+}
+
+TEST(Spg, cracks_open_before_the_rest_flows)
+{
+  // A sheet is stretched along x and compressed along y at constant volume, by
+  // d per step, large against the yield strain: cracks across x leave the
+  // uniaxial stress -Y along y. The deviator's trial value there is
+  // -2 (Y/3 + G d), held (with the mean) by -2/3 Y - 2 G d: of the work Y d
+  //   Y (2/3 d - Y/(9 G)) is plastic and Y (d/3 + Y/(9 G)) opens cracks.
+  const double Y = 324e6, d = 0.02, G = 68.9e9 / (2. * 1.33);
+  World world;
+  SpgBody &body = add_sheet(world, std::make_shared<HardeningPlasticity>(
+                                       ElasticConstants{2700., 68.9e9, 0.33},
+                                       HardeningParameters{Y, 0., 1.}));
+  deform(body, Mat::identity(), 0.);
+  const auto stretch = [&](const int step)
+  {
+    deform(body,
+           {{vec(std::exp(step * d), 0, 0), vec(0, std::exp(-step * d), 0),
+             vec(0, 0, 1)}},
+           1e-8);
+  };
+  stretch(1);
+  const Energies first(body);
+  constexpr int n_steps = 10;
+  for (int step = 2; step <= n_steps; ++step)
+    stretch(step);
+  const Energies last(body);
+  double volume = 0.; // corners have too few bonds to strain
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+    if (body.bond_list().n_bonds(i) > 3)
+    {
+      volume += 1e-9;
+      for (int c = 0; c < 6; ++c)
+        EXPECT_NEAR(body.stress(c, i), c == 1 ? -Y : 0., 1e-5 * Y);
+    }
+  const double strain = (n_steps - 1) * d, n = n_steps - 1,
+               internal = last.internal - first.internal,
+               plastic = last.plastic - first.plastic,
+               failure = last.failure - first.failure;
+  EXPECT_NEAR(internal, volume * Y * strain, 1e-3 * internal);
+  EXPECT_NEAR(plastic, volume * Y * (2. / 3. * strain - n * Y / (9. * G)),
+              1e-3 * plastic);
+  EXPECT_NEAR(failure, volume * Y * (strain / 3. + n * Y / (9. * G)),
+              1e-3 * failure);
+  EXPECT_NEAR(plastic + failure, internal, 1e-3 * internal);
 }
 
 TEST(Spg, coincident_particles_are_refused)

@@ -113,6 +113,72 @@ TEST(Tie, a_pulse_crosses_and_momentum_and_energy_stay)
   }
 }
 
+TEST(Tie, leaders_do_not_feel_bonds_that_failed)
+{
+  World world;
+  add_fem(world,
+          make_graded_box(box({{4e-3, 4e-3, 4e-3}}, {{-2e-3, 0, 0}}, 1e-3)));
+  SpgOptions options;
+  options.critical_effective_plastic_strain = 0.45;
+  options.critical_stretch = 1.005;
+  options.failure_check_interval = 1;
+  const auto metal = std::make_shared<HardeningPlasticity>(
+      ElasticConstants{2700., 68.9e9, 0.33},
+      HardeningParameters{324e9, 150e6, 1.});
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "spg", 1, make_box_cloud({{2e-3, 0, 0}}, {{4e-3, 4e-3, 4e-3}}, 1e-3),
+      metal, options));
+  world.couplings.push_back(std::make_unique<Tie>("tie", world.pointers(), 1, 0,
+                                                  0.05, MPI_COMM_WORLD));
+  world.distribute();
+  Body &fem = *world.bodies[0];
+  auto &spg = static_cast<SpgBody &>(*world.bodies[1]);
+  NodalState &leaders = fem.nodes(), &n = spg.nodes();
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    spg.set_state("effective plastic strain", i, 1.);
+    n.velocity[i] = vec(1e5 * n.reference_position[i][0], 0., 0.);
+  }
+  world.integrator.initialize();
+  const double energy = world.total_energy();
+  double broken = 0.;
+  while (broken == 0.)
+  {
+    world.integrator.advance(5e-9);
+    const AlignedVector<Vec> before = leaders.force;
+    AlignedVector<Vec> own = n.force;
+    world.integrator.update_topology(++world.step);
+    broken = measure(spg, "bonds broken");
+    // What the leaders lose is what their followers lose: all forces balance.
+    Vec sum = {}, change = {}, followers = {};
+    double size = 0.;
+    for (std::size_t i = 0; i < leaders.n_owned; ++i)
+    {
+      sum += leaders.force[i];
+      change += leaders.force[i] - before[i];
+      size += norm(leaders.force[i]);
+    }
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+      if (n.inertia[i] > 0.)
+      {
+        sum += n.force[i];
+        size += norm(n.force[i]);
+      }
+      else
+        followers += n.force[i] - own[i];
+    EXPECT_LT(norm(sum), 1e-12 * size);
+    EXPECT_LT(norm(change - followers), 1e-12 * size);
+    if (broken > 0.)
+    {
+      EXPECT_GT(norm(followers), 0.01 * size);
+    }
+  }
+  // The same after some steps of a half-broken body.
+  for (int step = 0; step < 100; ++step)
+    world.advance(0.2);
+  EXPECT_NEAR(world.total_energy(), energy, 2e-3 * energy);
+}
+
 TEST(Contact, two_bars_collide_and_part_with_momentum_and_energy)
 {
   for (const bool particles : {false, true})

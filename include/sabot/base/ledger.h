@@ -23,6 +23,10 @@ struct EnergyLedger
   ExactSum tie;
   /** Part of internal that was dissipated by plastic flow (information). */
   ExactSum plastic_work;
+  /** Part of internal and stabilization that failed bonds and cracks let go:
+      neither motion nor any body's elastic energy gets it back
+      (information). */
+  ExactSum failure;
 };
 } // namespace sabot
 

@@ -121,9 +121,11 @@ public:
   virtual void compute_forces(const double time, const double dt) = 0;
   /** Largest stable step seen from this rank, in the current state. */
   virtual StableStep stable_step() const = 0;
-  /** Work done between steps: kernel updates, bond failure, erosion.
-      Collective. */
-  virtual void update_topology(const unsigned int step, const double time) = 0;
+  /** What is done between steps: kernel updates, bond failure, erosion. Where
+      this changes the body's part of the forces, the array of forces already
+      holds the new part on return. Collective.
+      @return whether it may have, the same on all ranks. */
+  virtual bool update_topology(const unsigned int step, const double time) = 0;
 
   /** Add this rank's share. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;

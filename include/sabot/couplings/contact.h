@@ -4,7 +4,7 @@
 #include "sabot/couplings/contact_law.h"
 #include "sabot/couplings/contact_search.h"
 #include "sabot/couplings/coupling.h"
-#include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/halo_forces.h"
 
 namespace sabot
 {
@@ -101,7 +101,7 @@ private:
   Vec velocity_of_touched() const;
   /** Of friction per area [Pa], between a node and what it touches. */
   double shear_limit(const Group &group) const;
-  void push_touched(const Vec force, AlignedVector<Vec> &forces) const;
+  void push_touched(const Vec force, AlignedVector<Vec> &to) const;
   void update_surfaces();
 
   const std::vector<Body *> bodies;
@@ -114,19 +114,18 @@ private:
   std::vector<std::array<std::size_t, 4>> face_slots; // slots of the halo
   std::vector<ContactSurface> surfaces;               // of the pairs' bodies
   std::vector<std::pair<int, int>> body_pairs;
-  AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
+  HaloForces forces;
   std::vector<double> flow_stress; // per slot, at the last search; may be empty
   // Work arrays of spread()
-  std::vector<Touched> touched;
+  std::vector<Touched> touched, patch;
   std::vector<Vec> patch_points;
   std::vector<double> patch_areas, patch_weight;
   std::vector<std::ptrdiff_t> touched_number; // per slot; -1
-  std::vector<SymmetryPlane> symmetry_planes;
+  std::vector<SymmetryPlane> symmetry_planes, near_planes;
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., travelled = 0.; // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
   NodeKey initial_node{-1, 0, -1};
-  ExactSum contact_work, friction_work; // done on owned nodes [J]
 };
 } // namespace sabot
 

@@ -27,6 +27,9 @@ public:
   virtual void impose_kinematics() {}
   /** Add forces to owned nodes. @p dt is the step just made. Collective. */
   virtual void add_forces(const double dt) = 0;
+  /** After an update between steps changed forces of bodies: pass the changes
+      on. Collective. */
+  virtual void forward_changes() {}
   /** Work of the current forces along half a step's motion, @p half_dt times
       the current velocities (called before and after each drift). */
   virtual void accumulate_work(const double /*half_dt*/) {}

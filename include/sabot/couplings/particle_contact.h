@@ -3,7 +3,7 @@
 
 #include "sabot/couplings/contact_law.h"
 #include "sabot/couplings/coupling.h"
-#include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/halo_forces.h"
 
 namespace sabot
 {
@@ -90,12 +90,11 @@ private:
   AlignedVector<SurfacePoint> surface;      // per slot
   std::vector<double> flow_stress; // per slot, at the last search; may be empty
   NodeHalo halo;
-  AlignedVector<Vec> normal_force, friction_force, total_force; // per slot
+  HaloForces forces;
   double skin = 0.;      // [m], by which candidates may approach
   double allowance = 0.; // [m], of travel until the next search
   double travelled = 0.; // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
-  ExactSum contact_work, friction_work; // done on owned nodes [J]
 };
 } // namespace sabot
 

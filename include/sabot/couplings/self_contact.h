@@ -3,7 +3,7 @@
 
 #include "sabot/couplings/contact_law.h"
 #include "sabot/couplings/coupling.h"
-#include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/halo_forces.h"
 
 namespace sabot
 {
@@ -64,10 +64,9 @@ private:
   std::vector<Pair> pairs; // sorted by keys
   NodeHalo halo;
   std::vector<double> softening; // per slot, of the stiffness
-  AlignedVector<Vec> normal_force, friction_force, total_force;
+  HaloForces forces;
   double skin = 0., travelled = 0.;
   std::size_t n_loose = 0;
-  ExactSum contact_work, friction_work;
 };
 } // namespace sabot
 

@@ -31,6 +31,7 @@ public:
   void initialize() override;
   void impose_kinematics() override;
   void add_forces(const double dt) override;
+  void forward_changes() override;
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
   void visit_state(StateVisitor &visitor) override;

@@ -117,6 +117,16 @@ inline void cut_tension(double s[6])
   std::copy(cut, cut + 6, s);
 }
 
+/** Largest principal value of s (xx, yy, zz, xy, yz, xz). */
+inline double largest_principal(const double s[6])
+{
+  Eigen::Matrix3d m;
+  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(m, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[2];
+}
+
 /** Middle eigenvalue of a symmetric matrix. */
 inline double middle_eigenvalue(const Mat &moment)
 {

@@ -224,12 +224,11 @@ void FemBody::conduct_heat(const double time)
   last_conduction = time;
 }
 
-void FemBody::update_topology(const unsigned int, const double time)
+bool FemBody::update_topology(const unsigned int, const double time)
 {
   if (heat && time >= last_conduction + options.conduction_interval)
     conduct_heat(time);
-  if (erosion)
-    erode_cells();
+  return erosion && erode_cells();
 }
 
 bool FemBody::has_state(const std::string &variable) const

@@ -94,7 +94,7 @@ std::vector<std::size_t> FemBody::cells_to_erode() const
   return found;
 }
 
-void FemBody::erode_cells()
+bool FemBody::erode_cells()
 {
   const std::vector<std::size_t> found = cells_to_erode();
   cells->inverting.clear();
@@ -102,9 +102,10 @@ void FemBody::erode_cells()
   int any = !found.empty();
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, communicator);
   if (any == 0)
-    return;
+    return false;
   ++surface_version;
   erode(found);
+  return true;
 }
 
 void FemBody::erode(const std::vector<std::size_t> &found)

@@ -129,8 +129,9 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   internal_energy.assign(n, 0.);
   bond_work.assign(n, 0.);
   plastic_work.assign(n, 0.);
+  failure_loss.assign(n, 0.);
+  own_force.assign(n, Vec{});
   update_stable_step.resize(n);
-  std::fill(std::begin(batch.return_factor), std::end(batch.return_factor), 1.);
   std::fill(std::begin(batch.extra_square), std::end(batch.extra_square), 0.);
   set_up_kernel();
   if (options.conducts_heat)

@@ -1,6 +1,7 @@
 #include "sabot/bodies/spg/spg_body.h"
 
 #include "sabot/base/exact_sum.h"
+#include "sabot/kernels/kernel_function.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -91,6 +92,36 @@ std::size_t SpgBody::fail_bonds()
           failed_pairs[i].push_back(nodal_state.global_id[bonds.neighbor[b]]);
       }
   return bonds.remove(failed);
+}
+
+double SpgBody::residual_energy(const std::size_t i) const
+{
+  double square = 0.;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    square += bonds.residual_weight[b] * norm_square(load(bonds.residual[b]));
+  const double theta = residual_factor[i];
+  return 0.5 * bond_stiffness[i] * theta * theta * square;
+}
+
+void SpgBody::release_tension(const std::size_t i)
+{
+  const double K = material->bulk_modulus(), G = material->shear_modulus();
+  const auto elastic_energy = [&](const double s[6])
+  {
+    const double mean = (s[0] + s[1] + s[2]) / 3.;
+    double square = 0.;
+    for (int c = 0; c < 3; ++c)
+      square += (s[c] - mean) * (s[c] - mean) + 2. * s[3 + c] * s[3 + c];
+    return mean * mean / (2. * K) + square / (4. * G);
+  };
+  double s[6];
+  for (int c = 0; c < 6; ++c)
+    s[c] = stress(c, i);
+  const double before = elastic_energy(s);
+  cut_tension(s);
+  for (int c = 0; c < 6; ++c)
+    set_stress(c, i, s[c]);
+  failure_loss[i] += kernel_volume[i] * (before - elastic_energy(s));
 }
 
 std::vector<GlobalIndex> SpgBody::fragment_labels() const

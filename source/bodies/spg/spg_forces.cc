@@ -1,5 +1,4 @@
 #include "sabot/bodies/spg/spg_body.h"
-#include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/stress_update.h"
 
 #include <algorithm>
@@ -16,8 +15,16 @@ void SpgBody::compute_forces(const double /*time*/, const double dt)
 {
   current_stable_step = std::numeric_limits<double>::max();
   stable_step_item = -1;
-  largest_change = 1.;
   std::string problem;
+  evaluate_forces(dt, problem);
+  // Only now: the other ranks wait for the exchanges of the loop.
+  if (!problem.empty())
+    throw PhysicsError(problem);
+}
+
+void SpgBody::evaluate_forces(const double dt, std::string &problem)
+{
+  largest_change = 1.;
   const bool convex =
       options.approximation != SpgOptions::Approximation::least_squares;
   using S = Stabilization;
@@ -34,9 +41,8 @@ void SpgBody::compute_forces(const double /*time*/, const double dt)
     convex ? force_loop<true, S::none>(dt, problem)
            : force_loop<false, S::none>(dt, problem);
   }
-  // Only now: the other ranks wait for the exchanges of the loop.
-  if (!problem.empty())
-    throw PhysicsError(problem);
+  std::copy_n(nodal_state.force.begin(), nodal_state.n_owned,
+              own_force.begin());
 }
 
 template <bool stored_gradients, SpgBody::Stabilization stabilization>
@@ -58,6 +64,8 @@ void SpgBody::force_loop(const double dt, std::string &problem)
                                    transpose(batch.nominal[i - begin]));
     if (dt > 0.)
       stresses(begin, end, dt);
+    else
+      std::fill_n(batch.return_factor, end - begin, 1.);
     generalized_stresses<stored_gradients, stabilization>(begin, end);
   }
   node_exchange.update(generalized_stress.data());
@@ -135,11 +143,13 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     // smallest dimension.
     const double rate = dt > 0. ? trace(l) / dt : 0.;
     const double h = std::min(std::cbrt(V * J), 2. * c * step);
-    batch.viscous_pressure[k] = bulk_viscosity_pressure(
-        material->density() * V0 / (V * J), c, h, rate,
-        options.bulk_viscosity_linear, options.bulk_viscosity_quadratic);
+    // Without a step that of the last one stays.
+    batch.viscous_pressure[k] = viscous_pressure[i];
     if (dt > 0.)
     {
+      batch.viscous_pressure[k] = bulk_viscosity_pressure(
+          material->density() * V0 / (V * J), c, h, rate,
+          options.bulk_viscosity_linear, options.bulk_viscosity_quadratic);
       const double l_norm =
           std::sqrt(norm_square(l.row[0]) + norm_square(l.row[1]) +
                     norm_square(l.row[2]));
@@ -274,20 +284,7 @@ void SpgBody::stresses(const std::size_t begin, const std::size_t end,
     }
   if (!stiffening.empty())
     points.stiffening = &stiffening[begin];
-  material->update(points);
-
-  // A particle that lost a direction carries no tension across the gap.
-  for (std::size_t k = 0; k < m; ++k)
-    if (weak[begin + k])
-    {
-      double s[6];
-      for (int c = 0; c < 6; ++c)
-        s[c] = stress[c][k];
-      cut_tension(s);
-      for (int c = 0; c < 6; ++c)
-        stress[c][k] = s[c];
-    }
-
+  update_material(points, begin);
   half_work(m, old_stress, strain, batch.half_volume, &internal_energy[begin]);
   for (std::size_t k = 0; k < m; ++k)
   {

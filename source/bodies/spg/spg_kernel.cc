@@ -45,7 +45,7 @@ void SpgBody::prepare_kernel()
               : compute_shape_gradients<TensorKernel>();
 }
 
-void SpgBody::update_topology(const unsigned int step, const double time)
+bool SpgBody::update_topology(const unsigned int step, const double time)
 {
   // Regular updates where something has deformed; at once where a particle has
   // been stretched by much or a bond fails. All ranks must agree.
@@ -56,12 +56,28 @@ void SpgBody::update_topology(const unsigned int step, const double time)
     due = std::max(due, double(find_failed_bonds()));
   MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_DOUBLE, MPI_MAX, communicator);
   if (due > 0.)
-    update_kernel(step);
+    update_kernel_and_forces(step);
   if (options.stabilization == Stabilization::velocity_smoothing &&
       step % options.smoothing_interval == 0)
     smooth_velocities();
   if (heat && time >= last_conduction + options.conduction_interval)
     conduct_heat(time);
+  return due > 0.;
+}
+
+void SpgBody::update_kernel_and_forces(const std::size_t step)
+{
+  // The next step begins with half a kick by these forces, and the ledger will
+  // count the work that the new bonds and functions do along it.
+  const std::size_t n = nodal_state.n_owned;
+  AlignedVector<Vec> added(n);
+  for (std::size_t i = 0; i < n; ++i)
+    added[i] = nodal_state.force[i] - own_force[i];
+  update_kernel(step);
+  std::string problem; // none where nothing is deformed yet
+  evaluate_forces(0., problem);
+  for (std::size_t i = 0; i < n; ++i)
+    nodal_state.force[i] += added[i];
 }
 
 bool SpgBody::has_strained() const
@@ -98,6 +114,11 @@ void SpgBody::update_kernel(const std::size_t step)
     residual_factor[i] = 1.;
   }
   node_exchange.update(kernel.data());
+  std::vector<double> held(n);
+  for (std::size_t i = 0; i < n; ++i)
+    held[i] = residual_energy(i);
+  const std::vector<std::uint32_t> failed_before = n_failed;
+  const std::vector<char> weak_before = weak;
   fail_bonds();
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
     search_neighbors();
@@ -118,6 +139,11 @@ void SpgBody::update_kernel(const std::size_t step)
       bonds.residual[b] =
           store(load(bonds.residual[b]) -
                 multiply_columns(A, kernel_position[bonds.neighbor[b]] - Xi));
+    const bool became_weak = weak[i] && !weak_before[i];
+    if (became_weak)
+      release_tension(i);
+    if (became_weak || n_failed[i] != failed_before[i])
+      failure_loss[i] += held[i] - residual_energy(i);
   }
   if (second_gradient)
     second_gradient->restart();

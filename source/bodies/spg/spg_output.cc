@@ -17,6 +17,7 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
     if (second_gradient)
       ledger.stabilization.add(second_gradient->work[i]);
     ledger.plastic_work.add(plastic_work[i]);
+    ledger.failure.add(failure_loss[i]);
   }
 }
 
@@ -27,8 +28,8 @@ Measures SpgBody::measure() const
   bool has_temperature = false; // also on ranks without particles
   for (const StateVariable &variable : state_variables)
     has_temperature = has_temperature || variable.name == "temperature";
-  ExactSum internal, stabilization, bonds_failed, bonds_all, n_weak, n_isolated,
-      fallbacks;
+  ExactSum internal, stabilization, plastic, failure, bonds_failed, bonds_all,
+      n_weak, n_isolated, fallbacks;
   fallbacks.add(n_fallback);
   double top[2] = {0., 0.};
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
@@ -36,6 +37,8 @@ Measures SpgBody::measure() const
     internal.add(internal_energy[i]);
     stabilization.add(bond_work[i] +
                       (second_gradient ? second_gradient->work[i] : 0.));
+    plastic.add(plastic_work[i]);
+    failure.add(failure_loss[i]);
     bonds_failed.add(n_failed[i]);
     bonds_all.add(bonds.n_bonds(i) + n_failed[i]);
     n_weak.add(weak[i]);
@@ -43,13 +46,17 @@ Measures SpgBody::measure() const
     top[0] = std::max(top[0], eps ? eps[i] : 0.);
     top[1] = std::max(top[1], temperature ? temperature[i] : 0.);
   }
-  ExactSum::reduce({&internal, &stabilization, &bonds_failed, &bonds_all,
-                    &n_weak, &n_isolated, &fallbacks},
+  ExactSum::reduce({&internal, &stabilization, &plastic, &failure,
+                    &bonds_failed, &bonds_all, &n_weak, &n_isolated,
+                    &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   Measures measures = measure_nodes(nodal_state, communicator);
   measures.push_back({"internal energy", "J", internal.value()});
   measures.push_back({"stabilisation energy", "J", stabilization.value()});
+  measures.push_back({"plastic work", "J", plastic.value()});
+  if (options.can_fail())
+    measures.push_back({"failure energy", "J", failure.value()});
   measures.push_back({"plastic strain max", "1", top[0]});
   const double n = bonds_all.value();
   measures.push_back(
@@ -199,6 +206,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("internal energy", internal_energy);
   visit("bond work", bond_work);
   visit("plastic work", plastic_work);
+  visit("failure loss", failure_loss);
   visit("update stable step", update_stable_step);
   if (second_gradient)
     second_gradient->visit_state(visit);

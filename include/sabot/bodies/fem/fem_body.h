@@ -38,7 +38,7 @@ public:
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
-  void update_topology(const unsigned int step, const double time) override;
+  bool update_topology(const unsigned int step, const double time) override;
 
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;
@@ -92,8 +92,9 @@ private:
   void set_up_erosion();
   /** Active cells that meet a criterion, ascending. */
   std::vector<std::size_t> cells_to_erode() const;
-  /** Erode what meets a criterion. Collective. */
-  void erode_cells();
+  /** Erode what meets a criterion. Collective.
+      @return whether any rank has eroded a cell. */
+  bool erode_cells();
   void erode(const std::vector<std::size_t> &cells);
   void update_boundary(const std::vector<std::uint32_t> &dead);
   /** Drop the active cells whose initial cell is dead from all arrays. */

@@ -60,7 +60,10 @@ public:
   /** Moves the body by @p dt and clears the forces. */
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
-  void update_topology(const unsigned int, const double) override {}
+  bool update_topology(const unsigned int, const double) override
+  {
+    return false;
+  }
 
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;

@@ -53,7 +53,7 @@ public:
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
   StableStep stable_step() const override;
-  void update_topology(const unsigned int step, const double time) override;
+  bool update_topology(const unsigned int step, const double time) override;
 
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;
@@ -121,6 +121,8 @@ private:
   // spg_kernel.cc
   void set_up_kernel();
   bool has_strained() const;
+  /** Update the kernel; what the body adds to the forces follows. */
+  void update_kernel_and_forces(const std::size_t step);
   void update_kernel(const std::size_t step);
   template <typename Kernel>
   void compute_moments();
@@ -144,6 +146,11 @@ private:
       @return whether there are any on this rank. */
   bool find_failed_bonds();
   std::size_t fail_bonds();
+  /** Energy of the residuals of an owned particle [J]. */
+  double residual_energy(const std::size_t i) const;
+  /** Cut the tension of a particle that lost a direction just now; what it
+      stored is lost with it. */
+  void release_tension(const std::size_t i);
   std::vector<GlobalIndex> fragment_labels() const;
 
   // spg_step.cc
@@ -160,6 +167,7 @@ private:
                             AlignedVector<Vec> &contribution) const;
 
   // spg_forces.cc
+  void evaluate_forces(const double dt, std::string &problem);
   template <bool stored_gradients, Stabilization stabilization>
   void force_loop(const double dt, std::string &problem);
   template <bool stored_gradients>
@@ -173,6 +181,13 @@ private:
   template <bool stored_gradients, bool has_residuals>
   void gather_forces();
   const double *state_array(const std::string &name) const;
+
+  // spg_cracks.cc
+  /** The material's update; particles that lost a direction open cracks before
+      they flow. @p points: of the particles from @p begin on. */
+  void update_material(const MaterialBatch &points, const std::size_t begin);
+  /** Set uncracked_strain of the batch; false where no crack opens. */
+  bool open_cracks(const MaterialBatch &points, const std::size_t begin);
 
   static constexpr std::size_t batch_size = 64;
   /** Fraction of the intact middle eigenvalue of the moment matrix below which
@@ -226,6 +241,8 @@ private:
   std::vector<double> viscous_pressure;               // of the last step [Pa]
   std::vector<double> stiffening; // only of materials that stiffen
   std::vector<double> internal_energy, bond_work, plastic_work; // [J]
+  std::vector<double> failure_loss;       // [J], part of the first two
+  AlignedVector<Vec> own_force;           // without what couplings added
   std::vector<double> update_stable_step; // [s] at the last kernel update
   double current_stable_step = 0.;
   GlobalIndex stable_step_item = -1;
@@ -255,6 +272,9 @@ private:
     double trial_square[batch_size], old_trial[batch_size],
         old_square[batch_size];
     double return_factor[batch_size], plastic_work[batch_size];
+    // Of batches with particles that lost a direction
+    double old_stress[6][batch_size], uncracked_strain[6][batch_size];
+    bool is_cracked[batch_size];
     Mat residual_on_bond[batch_size];     // sum phi e (x) dx
     Mat residual_on_residual[batch_size]; // sum phi e (x) e
     Mat velocity_gradient[batch_size];    // F_new F_old^-1 - 1
@@ -262,6 +282,7 @@ private:
   };
   Batch batch;
   std::vector<double *> batch_states; // one pointer per state array
+  std::vector<double> old_states;     // of a batch with cracks
 };
 } // namespace sabot
 
