@@ -187,7 +187,10 @@ void SpgBody::compute_moments()
       const double w = 0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there));
       bonds.weight[b] = w;
       const double square = 0.5 * w * (norm_square(xi) + norm_square(xi_there));
-      bonds.residual_weight[b] = square / norm_square(dX);
+      // Loose particles on an axis of symmetry may be pressed onto each other.
+      const double distance_square = norm_square(dX);
+      bonds.residual_weight[b] =
+          distance_square > 0. ? square / distance_square : 0.;
       spread += square;
       add_outer(M, w * xi, xi);
     }
