@@ -981,15 +981,15 @@ class Scenes(unittest.TestCase):
                 "--set", "Bodies/core/Nodal spacing=2.5 mm", "--set",
                 "Bodies/plate/Cell size=2.5 mm", "--set",
                 "Bodies/projectile/Cell size=2.5 mm", "--set",
-                "End time=20 us", "--set", "Outputs/fields/Interval=20 us")
+                "End time=8 us", "--set", "Outputs/fields/Interval=8 us")
             self.assertEqual(done.returncode, 0, done.stdout)
             r = result(out)
             speeds.append(r["quantities"]["residual velocity"]["value"])
-            # More than half of the way through the plate.
             self.assertGreater(r["quantities"]["penetration depth"]["value"],
-                               0.5 * 0.0127)
-        # Debris amplifies round-off.
-        self.assertAlmostEqual(speeds[0], speeds[1], delta=0.01 * speeds[1])
+                               0.2 * 0.0127)
+        # Later the collisions of debris amplify what differs: at 1.0 mm
+        # 0.07 % at 10 us are 4 % in the end.
+        self.assertAlmostEqual(speeds[0], speeds[1], delta=0.003 * speeds[1])
 
     def test_a_study_passes_a_signal_on_and_goes_on_later(self):
         study = os.path.join(SOURCE, "tests/scenes/study.prm")
