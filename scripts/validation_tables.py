@@ -140,6 +140,23 @@ def print_zone(study):
            "would save s", "verdict", "change m/s", "saved s"), rows)
 
 
+def print_prices(study):
+    """What each knob saves and changes against the first run."""
+    base, rows = study.rows[0], []
+    for row in study.rows[1:]:
+        if row["status"] != "completed":
+            continue
+        rows.append([
+            ", ".join("%s %s" % (p, row[p]) for p in study.parameters
+                      if row[p] != base[p]),
+            "%+.1f" % (float(base["CPU time [s]"]) -
+                       float(row["CPU time [s]"])),
+            "%+.1f" % (float(row["residual velocity [m/s]"]) -
+                       float(base["residual velocity [m/s]"]))])
+    print("Price list against the first run:\n")
+    table(("knob", "CPU s saved", "residual velocity changes by m/s"), rows)
+
+
 def print_energies(study):
     """Where the impact energy is at the end of the runs over the spacing."""
     parts = [c for c in study.rows[0] if c.startswith("energy ") and
@@ -239,6 +256,8 @@ def main():
         print_study(study)
         if study.name == "zone":
             print_zone(study)
+        if study.name == "method":
+            print_prices(study)
         if study.name in ("spacing", "projectile"):
             print_energies(study)
     if arguments.figures:
