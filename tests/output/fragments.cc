@@ -1,3 +1,5 @@
+#include "temporary_folder.h"
+
 #include "sabot/base/parameter_file.h"
 #include "sabot/simulation/run.h"
 
@@ -44,16 +46,9 @@ struct Sum
 };
 
 /** A bar of 10 x 3 x 3 mm, particles 1 mm apart, also on its faces. */
-class Torn : public testing::Test
+class Torn : public TemporaryFolder
 {
 protected:
-  void SetUp() override
-  {
-    char name[] = "/tmp/sabot-test-XXXXXX";
-    folder = mkdtemp(name);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   /** Runs the scene; by fragment id, from the last frame. Masses are those of
       the lattice at the start: halves on faces. */
   std::map<double, Sum> tear(const std::vector<std::string> &overrides)
@@ -131,7 +126,6 @@ protected:
     }
     EXPECT_GT(speed, 10.); // there is something to compare
   }
-  std::string folder;
   nlohmann::json result;
 };
 

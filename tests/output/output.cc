@@ -1,3 +1,5 @@
+#include "temporary_folder.h"
+
 #include "sabot/base/error.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/output/history.h"
@@ -20,15 +22,9 @@ namespace
 {
 using namespace sabot;
 
-class Output : public testing::Test
+class Output : public TemporaryFolder
 {
 protected:
-  void SetUp() override
-  {
-    char name[] = "/tmp/sabot-test-XXXXXX";
-    folder = mkdtemp(name);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
   std::string read(const std::string &file)
   {
     std::ifstream stream(folder + "/" + file, std::ios::binary);
@@ -36,7 +32,6 @@ protected:
     text << stream.rdbuf();
     return text.str();
   }
-  std::string folder;
 };
 
 OutputMesh two_cells()
