@@ -6,18 +6,6 @@
 
 namespace sabot
 {
-namespace
-{
-/** Mirror image of a direction: components of the set axes change sign. */
-Vec flipped(Vec v, const unsigned int axes)
-{
-  for (int d = 0; d < 3; ++d)
-    if (axes >> d & 1)
-      v[d] = -v[d];
-  return v;
-}
-} // namespace
-
 double Contact::patch_radius(const int nodes_of, const int faces_of) const
 {
   // A particle stands for a volume as wide as the spacing, not for a point:
@@ -54,27 +42,7 @@ void Contact::spread_over_patch(const Group &group,
   const double radius = group.patch_radius;
   const Vec held = projection.face_normal, p = halo.position[group.slot],
             centre = p - projection.along * held;
-  std::vector<SymmetryPlane> &near = near_planes;
-  near.clear();
-  for (const SymmetryPlane &plane : symmetry_planes)
-    if (std::abs(centre[plane.axis] - plane.coordinate) < radius)
-      near.push_back(plane);
-  const unsigned int n_images = 1u << near.size();
-  const auto axes_of = [&](const unsigned int image)
-  {
-    unsigned int axes = 0;
-    for (std::size_t i = 0; i < near.size(); ++i)
-      if (image >> i & 1)
-        axes |= 1u << near[i].axis;
-    return axes;
-  };
-  const auto image_of = [&](Vec x, const unsigned int image)
-  {
-    for (std::size_t i = 0; i < near.size(); ++i)
-      if (image >> i & 1)
-        x[near[i].axis] = 2. * near[i].coordinate - x[near[i].axis];
-    return x;
-  };
+  images.find(symmetry_planes, centre, radius);
 
   patch.clear();
   patch_points.clear();
@@ -90,9 +58,9 @@ void Contact::spread_over_patch(const Group &group,
     if (dot(area, held) < cosine * size)
       continue;
     const Vec middle = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-    for (unsigned int image = 0; image < n_images; ++image)
-      mean += cubic_spline(norm(image_of(middle, image) - centre) / radius) *
-              flipped(area, axes_of(image));
+    for (unsigned int image = 0; image < images.size(); ++image)
+      mean += cubic_spline(norm(images(middle, image) - centre) / radius) *
+              flipped(area, images.axes(image));
     for (int a = 0; a < 4; ++a)
     {
       std::ptrdiff_t &number = touched_number[corner[a]];
@@ -109,11 +77,11 @@ void Contact::spread_over_patch(const Group &group,
   for (const Touched &t : patch)
     touched_number[t.slot] = -1;
   const std::size_t n_real = patch.size();
-  for (unsigned int image = 1; image < n_images; ++image)
+  for (unsigned int image = 1; image < images.size(); ++image)
     for (std::size_t a = 0; a < n_real; ++a)
     {
-      patch.push_back({patch[a].slot, 0., axes_of(image)});
-      patch_points.push_back(image_of(patch_points[a], image));
+      patch.push_back({patch[a].slot, 0., images.axes(image)});
+      patch_points.push_back(images(patch_points[a], image));
       patch_areas.push_back(patch_areas[a]);
     }
   const double size = norm(mean);

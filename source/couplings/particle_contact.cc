@@ -1,30 +1,12 @@
 #include "sabot/couplings/particle_contact.h"
 
 #include "sabot/couplings/contact_search.h"
-#include "sabot/couplings/particle_search.h"
-#include "sabot/kernels/kernel_function.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sabot
 {
-namespace
-{
-/** Mean of the sum of cubic splines of radius 1.5 spacings over a plane of
-    particles: 2 pi 1.5^2 integral of phi r dr. */
-constexpr double full_sum = 0.8247;
-/** Part of it below which a surface has ended, and from which it is whole:
-    least values half a spacing beyond a straight rim and inside of it. */
-constexpr double least_sum = 0.5, whole_sum = 0.875;
-
-/** 0 for directions at right angles or worse, 1 within 60 degrees. */
-double alignment(const double cosine)
-{
-  return std::clamp(2. * cosine, 0., 1.);
-}
-} // namespace
-
 ParticleContact::ParticleContact(const std::string &name,
                                  const std::vector<Body *> &bodies,
                                  const std::vector<std::pair<int, int>> &pairs,
@@ -38,6 +20,10 @@ ParticleContact::ParticleContact(const std::string &name,
 void ParticleContact::initialize()
 {
   skin = 1e300;
+  symmetry_planes.resize(bodies.size());
+  for (const auto &[a, b] : pairs)
+    for (const int body : {a, b})
+      symmetry_planes[body] = bodies[body]->contact_surface().symmetry_planes;
   for (const auto &[a, b] : pairs)
     for (const int body : {a, b})
       skin = std::min(skin, 0.4 * bodies[body]->contact_surface().spacing);
@@ -72,11 +58,11 @@ void ParticleContact::search()
   // Owners look for what their nodes may touch; everyone then keeps what
   // touches nodes of his own, in the same order.
   std::vector<Group> my_groups;
-  std::vector<NodeKey> my_members;
-  for (const OpenParticle &node : found.mine())
+  std::vector<Member> my_members;
+  for (const SearchedParticle &node : found.mine())
     for (const auto &[a, b] : pairs)
     {
-      if (node.key.body != a && node.key.body != b)
+      if (!node.is_open || (node.key.body != a && node.key.body != b))
         continue;
       const int other = node.key.body == a ? b : a;
       const std::size_t before = my_members.size();
@@ -88,22 +74,23 @@ void ParticleContact::search()
       Group group{};
       group.node = node.key;
       group.other = other;
-      group.is_sound = node.is_sound;
+      group.is_sound = node.is_on_surface;
       group.n_members = my_members.size() - before;
       group.spacing = mine.spacing;
+      group.its_spacing = its.spacing;
       group.stiffness = node.share * options.stiffness_scale *
                         std::min(mine.bulk_modulus, its.bulk_modulus) *
                         mine.spacing;
       // Where both sides meet surfaces, each carries half of the shear.
-      group.area =
-          node.share * mine.spacing * mine.spacing / (node.is_sound ? 2. : 1.);
+      group.area = node.share * mine.spacing * mine.spacing /
+                   (node.is_on_surface ? 2. : 1.);
       const auto old = std::lower_bound(groups.begin(), groups.end(), group);
       if (old != groups.end() && !(group < *old))
         group.memory = old->memory;
       my_groups.push_back(group);
     }
   const std::vector<Group> all = gather_all(my_groups, communicator);
-  const std::vector<NodeKey> all_members = gather_all(my_members, communicator);
+  const std::vector<Member> all_members = gather_all(my_members, communicator);
   std::vector<std::size_t> first(all.size() + 1, 0), order(all.size());
   for (std::size_t g = 0; g < all.size(); ++g)
   {
@@ -115,13 +102,15 @@ void ParticleContact::search()
             { return all[a] < all[b]; });
   const auto owned = [&](const NodeKey &key)
   { return bodies[key.body]->node_owner[key.node] == rank; };
+  const auto owned_member = [&](const Member &member)
+  { return owned(member.key); };
   groups.clear();
   members.clear();
   for (const std::size_t g : order)
   {
     const auto begin = all_members.begin() + first[g],
                end = all_members.begin() + first[g + 1];
-    if (!owned(all[g].node) && std::none_of(begin, end, owned))
+    if (!owned(all[g].node) && std::none_of(begin, end, owned_member))
       continue;
     groups.push_back(all[g]);
     members.insert(members.end(), begin, end);
@@ -137,32 +126,36 @@ double ParticleContact::largest_friction(const Group &group,
   if (!options.limit_by_yield)
     return options.shear_limit * group.area;
   double its = 0.;
-  for (std::size_t m = at.first_member; m < at.last_member; ++m)
-    its += weight[m - at.first_member] * flow_stress[member_slots[m]];
+  for (const NearParticle &p : near)
+    its += p.weight * flow_stress[p.slot];
   return std::min(flow_stress[at.node], its) / std::sqrt(3.) * group.area;
 }
 
 void ParticleContact::build_halo()
 {
-  std::vector<NodeKey> needed = members;
+  std::vector<NodeKey> needed;
+  for (const Member &member : members)
+    needed.push_back(member.key);
   for (const Group &group : groups)
     needed.push_back(group.node);
   halo.build(bodies, needed, communicator);
+  is_on_surface.assign(halo.size(), 0);
   slots.clear();
   member_slots.clear();
-  std::size_t most = 0;
-  for (const NodeKey &member : members)
-    member_slots.push_back(halo.slot(member));
+  for (const Member &member : members)
+  {
+    member_slots.push_back(halo.slot(member.key));
+    is_on_surface[member_slots.back()] |= member.is_on_surface;
+  }
   std::size_t first = 0;
   for (const Group &group : groups)
   {
     slots.push_back({halo.slot(group.node), first, first + group.n_members});
+    is_on_surface[slots.back().node] |= group.is_sound;
     first += group.n_members;
-    most = std::max(most, std::size_t(group.n_members));
   }
-  weight.resize(most);
-  along_normal.resize(most);
-  surface.resize(halo.size());
+  surface.assign(halo.size(), SurfacePoint());
+  volume.resize(halo.size());
   forces.resize(halo.size());
 }
 
@@ -170,117 +163,61 @@ void ParticleContact::update_halo()
 {
   halo.update();
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
-    surface[s] = halo.body(s).surface_point(halo.local(s));
+  {
+    const Body &body = halo.body(s);
+    if (is_on_surface[s])
+      surface[s] = body.surface_point(halo.local(s));
+    volume[s] = body.volume_point(halo.local(s));
+  }
   halo.update_ghosts(surface.data());
+  halo.update_ghosts(volume.data());
 }
 
-ParticleContact::Standing ParticleContact::locate(const Group &group,
-                                                  const Slots &at)
+Standing ParticleContact::locate(const Group &group, const Slots &at)
 {
-  // A node that comes from outside is caught before half a spacing; the other
-  // side of a thin part is a spacing deep at least.
-  const bool inside = group.memory.depth > 0.;
-  const double deepest = inside ? ParticleSearch::reach : 0.5;
   const Vec x = halo.position[at.node];
-  const SurfacePoint own = group.is_sound ? surface[at.node] : SurfacePoint();
-  const bool has_normal = norm_square(own.normal) > 0.;
-  Standing standing;
-  double sum = 0.;
-  Vec normal = {};
-  for (std::size_t m = at.first_member; m < at.last_member; ++m)
+  near.clear();
+  if (group.is_sound)
   {
-    double &w = weight[m - at.first_member];
-    w = 0.;
-    const std::size_t j = member_slots[m];
-    Vec n = surface[j].normal;
-    double facing = norm_square(n) > 0. ? 1. : 0.;
-    if (has_normal)
-    {
-      facing *= alignment(-dot(own.normal, n));
-      n = surface[j].flatness * n - own.flatness * own.normal;
-    }
-    if (facing <= 0.)
-      continue;
-    n *= 1. / norm(n);
-    if (inside)
-      facing *= alignment(dot(n, group.memory.side));
-    const Vec d = x - halo.position[j];
-    const double along = dot(d, n), spacing = surface[j].spacing;
-    if (along < -deepest * spacing)
-      continue;
-    const double lateral =
-        std::sqrt(std::max(0., norm_square(d) - along * along));
-    w = facing * cubic_spline(lateral / (ParticleSearch::reach * spacing));
-    sum += w;
-    normal += w * n;
-    along_normal[m - at.first_member] = along;
+    for (std::size_t m = at.first_member; m < at.last_member; ++m)
+      near.push_back(
+          {member_slots[m], 0, x - halo.position[member_slots[m]], 0.});
+    const Standing standing = stand_on_surface(
+        {surface[at.node], group.memory.side, group.memory.depth > 0.}, near,
+        surface);
+    if (standing.fade > 0.)
+      return standing;
+    near.clear();
   }
-  const double part = sum / full_sum;
-  if (part <= least_sum || norm_square(normal) == 0.)
-    return standing;
-  standing.normal = (1. / norm(normal)) * normal;
-  balance_weights(at, standing.normal);
-  standing.gap = 0.;
-  for (std::size_t m = 0; m < at.last_member - at.first_member; ++m)
-    standing.gap += weight[m] * along_normal[m];
-  standing.fade = std::min(1., (part - least_sum) / (whole_sum - least_sum));
-  return standing;
+  images.find(symmetry_planes[group.other], x,
+              2. * ParticleSearch::reach * group.its_spacing);
+  for (std::size_t m = at.first_member; m < at.last_member; ++m)
+    for (unsigned int image = 0; image < images.size(); ++image)
+      near.push_back({member_slots[m], images.axes(image),
+                      x - images(halo.position[member_slots[m]], image), 0.});
+  return stand_in_volume(near, volume);
 }
 
-void ParticleContact::balance_weights(const Slots &at, const Vec n)
+void ParticleContact::push(const Slots &at, const Vec of_node,
+                           AlignedVector<Vec> &force)
 {
-  // w (1 + c . d), d tangential, has no first moment where the node stands
-  // between particles; beyond the last it gets as near as w >= 0 allows.
-  const Vec x = halo.position[at.node];
-  const auto tangential = [&](const std::size_t m)
-  {
-    const Vec d = x - halo.position[member_slots[m]];
-    return d - dot(d, n) * n;
-  };
-  Vec first = {};
-  Mat second = Mat::zero();
-  for (std::size_t m = at.first_member; m < at.last_member; ++m)
-    if (weight[m - at.first_member] > 0.)
-    {
-      const Vec d = tangential(m), wd = weight[m - at.first_member] * d;
-      first += wd;
-      add_outer(second, wd, d);
-    }
-  const double size = trace(second);
-  Vec slope = {};
-  if (size > 0.)
-  {
-    add_outer(second, size * n, n);
-    slope = -1. * (inverse(second + 1e-6 * size * Mat::identity()) * first);
-  }
-  double least = 0.;
-  for (std::size_t m = at.first_member; m < at.last_member; ++m)
-    if (weight[m - at.first_member] > 0.)
-      least = std::min(least, dot(slope, tangential(m)));
-  if (least < -1.)
-    slope *= -1. / least;
-  double sum = 0.;
-  for (std::size_t m = at.first_member; m < at.last_member; ++m)
-  {
-    double &w = weight[m - at.first_member];
-    if (w > 0.)
-      w *= std::max(0., 1. + dot(slope, tangential(m)));
-    sum += w;
-  }
-  for (std::size_t m = 0; m < at.last_member - at.first_member; ++m)
-    weight[m] /= sum;
+  force[at.node] += of_node;
+  for (const NearParticle &p : near)
+    force[p.slot] -= p.weight * flipped(of_node, p.turned);
 }
 
 void ParticleContact::add_forces(const double dt)
 {
   update_halo();
   forces.clear();
+  n_deep = 0;
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     Group &group = groups[g];
     const Slots &at = slots[g];
     const Standing standing = locate(group, at);
     ContactMemory &memory = group.memory;
+    n_deep += standing.is_deep && at.node < halo.n_owned();
     if (standing.fade > 0.)
       memory.side = standing.normal;
     if (dt <= 0.)
@@ -295,13 +232,19 @@ void ParticleContact::add_forces(const double dt)
       memory.release();
       continue;
     }
-    const double *const w = weight.data() - at.first_member;
+    // A particle and its images move as one.
     double compliance = 1. / halo.inertia[at.node];
     Vec v = halo.velocity[at.node];
-    for (std::size_t m = at.first_member; m < at.last_member; ++m)
+    for (std::size_t p = 0; p < near.size();)
     {
-      compliance += w[m] * w[m] / halo.inertia[member_slots[m]];
-      v -= w[m] * halo.velocity[member_slots[m]];
+      const std::size_t j = near[p].slot;
+      Vec part = {};
+      for (; p < near.size() && near[p].slot == j; ++p)
+      {
+        part += near[p].weight * flipped(standing.normal, near[p].turned);
+        v -= near[p].weight * flipped(halo.velocity[j], near[p].turned);
+      }
+      compliance += norm_square(part) / halo.inertia[j];
     }
     const double depth =
         memory.effective_depth(-standing.gap, 2. * norm(v) * dt);
@@ -317,14 +260,8 @@ void ParticleContact::add_forces(const double dt)
         standing.fade * backed_part(memory,
                                     standing.fade * k * depth * standing.normal,
                                     v, k, dt);
-    const Vec fn = part * force.normal, ft = part * force.friction;
-    forces.normal[at.node] += fn;
-    forces.friction[at.node] += ft;
-    for (std::size_t m = at.first_member; m < at.last_member; ++m)
-    {
-      forces.normal[member_slots[m]] -= w[m] * fn;
-      forces.friction[member_slots[m]] -= w[m] * ft;
-    }
+    push(at, part * force.normal, forces.normal);
+    push(at, part * force.friction, forces.friction);
     penetration_over_spacing =
         std::max(penetration_over_spacing, depth / group.spacing);
   }
@@ -346,9 +283,12 @@ Measures ParticleContact::measure() const
   double penetration = penetration_over_spacing;
   MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
+  GlobalIndex deep = n_deep;
+  MPI_Allreduce(MPI_IN_PLACE, &deep, 1, MPI_INT64_T, MPI_SUM, communicator);
   Measures measures = {
       {"penetration max over spacing", "1", penetration},
-      {"initial penetration over spacing", "1", initial_over_spacing}};
+      {"initial penetration over spacing", "1", initial_over_spacing},
+      {"nodes deep inside", "1", double(deep)}};
   forces.add_measures(measures, communicator);
   return measures;
 }

@@ -18,6 +18,20 @@ Box box_of(const Body &body, MPI_Comm communicator)
   box.reduce(communicator);
   return box;
 }
+
+/** Longest semi-axis of the ellipsoid |@p to_unit x| = 1, from above: the row
+    sums of H H^T bound its eigenvalues. */
+double largest_axis(const Mat &to_unit)
+{
+  const Mat axes = inverse(to_unit);
+  const Mat square = axes * transpose(axes);
+  double largest = 0.;
+  for (int d = 0; d < 3; ++d)
+    largest =
+        std::max(largest, std::abs(square(d, 0)) + std::abs(square(d, 1)) +
+                              std::abs(square(d, 2)));
+  return std::sqrt(largest);
+}
 } // namespace
 
 ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
@@ -40,7 +54,7 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
       surfaces[b] = bodies[b]->contact_surface();
       spacing = std::max(spacing, surfaces[b].spacing);
     }
-  // Twice: surfaces stretch.
+  // Twice: bodies stretch.
   const double margin = 2. * std::sqrt(2.) * reach * spacing + skin;
   smallest_gap = 1e300;
   for (const auto &[a, b] : pairs)
@@ -66,57 +80,58 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
                        [&](const int other)
                        { return extent[other].contains(x); }))
         continue;
-      OpenParticle particle{};
+      SearchedParticle particle{};
       particle.key = {std::int32_t(b), 0, nodes.global_id[i]};
       particle.x = x;
       particle.share = shares.empty() ? 1. : shares[i];
-      if (!is_loose[i])
-      {
-        const SurfacePoint point = bodies[b]->surface_point(i);
-        if (point.spacing == 0.)
-          continue;
-        particle.is_sound = 1;
-        // Tied followers are inside of what they are tied to.
-        particle.reach = nodes.inertia[i] > 0.
-                             ? std::sqrt(2.) * reach * point.spacing + skin
-                             : 0.;
-      }
+      const SurfacePoint point =
+          is_loose[i] ? SurfacePoint() : bodies[b]->surface_point(i);
+      particle.is_on_surface = point.spacing > 0.;
+      particle.is_open = is_loose[i] || particle.is_on_surface;
+      // Tied followers are inside of what they are tied to.
+      if (nodes.inertia[i] > 0.)
+        particle.reach =
+            std::max(std::sqrt(2.) * reach * point.spacing,
+                     largest_axis(bodies[b]->volume_point(i).to_unit)) +
+            skin;
       my_particles.push_back(particle);
     }
   }
-  std::vector<OpenParticle> my_sound;
-  double longest = skin;
-  for (const OpenParticle &particle : my_particles)
+  std::vector<SearchedParticle> my_touchable;
+  for (const SearchedParticle &particle : my_particles)
     if (particle.reach > 0.)
-      my_sound.push_back(particle);
-  sound = gather_all(my_sound, communicator);
-  std::sort(sound.begin(), sound.end(),
-            [](const OpenParticle &a, const OpenParticle &b)
+      my_touchable.push_back(particle);
+  touchable = gather_all(my_touchable, communicator);
+  std::sort(touchable.begin(), touchable.end(),
+            [](const SearchedParticle &a, const SearchedParticle &b)
             { return a.key < b.key; });
-  for (const OpenParticle &particle : sound)
+  double longest = skin;
+  for (const SearchedParticle &particle : touchable)
     longest = std::max(longest, particle.reach);
-  for (std::size_t s = 0; s < sound.size(); ++s)
+  for (std::size_t s = 0; s < touchable.size(); ++s)
   {
-    auto &of_body = buckets[sound[s].key.body];
+    auto &of_body = buckets[touchable[s].key.body];
     if (!of_body)
       of_body = std::make_unique<PointBuckets>(longest);
-    of_body->add(sound[s].x, s);
+    of_body->add(touchable[s].x, s);
   }
 }
 
-void ParticleSearch::near(const OpenParticle &node, const int other,
-                          std::vector<NodeKey> &found) const
+void ParticleSearch::near(const SearchedParticle &node, const int other,
+                          std::vector<Member> &found) const
 {
   if (!buckets[other])
     return;
   const std::size_t first = found.size();
-  buckets[other]->for_near(node.x,
-                           [&](const std::size_t s)
-                           {
-                             if (norm_square(sound[s].x - node.x) <
-                                 sound[s].reach * sound[s].reach)
-                               found.push_back(sound[s].key);
-                           });
-  std::sort(found.begin() + first, found.end());
+  buckets[other]->for_near(
+      node.x,
+      [&](const std::size_t s)
+      {
+        const SearchedParticle &there = touchable[s];
+        if (norm_square(there.x - node.x) < there.reach * there.reach)
+          found.push_back({there.key, there.is_on_surface});
+      });
+  std::sort(found.begin() + first, found.end(),
+            [](const Member &a, const Member &b) { return a.key < b.key; });
 }
 } // namespace sabot

@@ -58,6 +58,17 @@ struct SurfacePoint
   double flatness = 0.;
 };
 
+/**
+ * A node of a body without faces as part of its volume: it fills the share
+ * content phi(|to_unit (x - x_j)|) of the space at x, phi the cubic spline. The
+ * shares of all nodes add to 1 deep inside the body, to 1/2 on its surface.
+ */
+struct VolumePoint
+{
+  Mat to_unit = Mat::zero(); // [1/m], of the node's ellipsoid to the unit ball
+  double content = 0.;
+};
+
 /** Owned nodes that have come loose (a failed bond), which may meet each other
     again, and how stiff they are. */
 struct DebrisView
@@ -159,6 +170,8 @@ public:
   {
     return {};
   }
+  /** Owned node @p i as part of a volume without cells, now. */
+  virtual VolumePoint volume_point(const std::size_t /*i*/) const { return {}; }
 
   /** Empty for a body whose parts never come loose. */
   virtual DebrisView debris() const { return {}; }

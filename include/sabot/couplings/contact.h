@@ -5,6 +5,7 @@
 #include "sabot/couplings/contact_search.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/halo_forces.h"
+#include "sabot/couplings/mirror_images.h"
 
 namespace sabot
 {
@@ -121,7 +122,8 @@ private:
   std::vector<Vec> patch_points;
   std::vector<double> patch_areas, patch_weight;
   std::vector<std::ptrdiff_t> touched_number; // per slot; -1
-  std::vector<SymmetryPlane> symmetry_planes, near_planes;
+  std::vector<SymmetryPlane> symmetry_planes;
+  MirrorImages images;
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., travelled = 0.; // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;

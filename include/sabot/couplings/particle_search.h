@@ -8,19 +8,27 @@
 
 namespace sabot
 {
-/** A particle that other bodies can meet. */
-struct OpenParticle
+/** A particle near other bodies. */
+struct SearchedParticle
 {
   NodeKey key;
   Vec x;
-  double reach;          // from which nodes may touch its surface [m]
-  double share;          // ContactSurface::node_share
-  std::int64_t is_sound; // on the surface, all bonds whole; else loose
+  double reach;               // from which nodes may touch it [m]; 0: never
+  double share;               // ContactSurface::node_share
+  std::int32_t is_on_surface; // all bonds whole
+  std::int32_t is_open;       // on the surface, or loose
+};
+
+/** A particle that a node may touch. */
+struct Member
+{
+  NodeKey key;
+  std::int64_t is_on_surface;
 };
 
 /**
- * Particles of several bodies that lie open near another body: on the surface
- * of their own, or loose. Particles inside are open only once a bond of theirs
+ * Particles of several bodies near another body. Those on the surface of their
+ * own, and loose ones, lie open; particles inside do only once a bond of theirs
  * failed. Cost is linear in the particles near other bodies, and a pass over
  * the positions of all. Collective.
  */
@@ -36,19 +44,19 @@ public:
 
   /** Travel that bodies need to come within the skin of touching. */
   double gap() const { return smallest_gap; }
-  /** Open particles owned here, by body and number. */
-  const std::vector<OpenParticle> &mine() const { return my_particles; }
-  /** Append the sound particles of body @p other that @p node may touch,
-      ascending. */
-  void near(const OpenParticle &node, const int other,
-            std::vector<NodeKey> &found) const;
+  /** Particles owned here, by body and number. */
+  const std::vector<SearchedParticle> &mine() const { return my_particles; }
+  /** Append the particles of body @p other that @p node may touch, ascending.
+   */
+  void near(const SearchedParticle &node, const int other,
+            std::vector<Member> &found) const;
   const ContactSurface &surface(const int body) const { return surfaces[body]; }
 
 private:
   std::vector<ContactSurface> surfaces;
   double smallest_gap = 0.;
-  std::vector<OpenParticle> my_particles, sound;      // the latter of all ranks
-  std::vector<std::unique_ptr<PointBuckets>> buckets; // per body
+  std::vector<SearchedParticle> my_particles, touchable; // of all ranks
+  std::vector<std::unique_ptr<PointBuckets>> buckets;    // per body
 };
 } // namespace sabot
 

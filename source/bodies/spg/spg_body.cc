@@ -39,6 +39,15 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       throw InputError("Bodies/" + name + "/Symmetry faces",
                        "these faces do not lie in one plane across the x, y "
                        "or z axis; a symmetry plane must");
+  for (unsigned int face = 0; face < face_axis.size(); ++face)
+    if (options.symmetry_faces & 1u << face)
+      for (std::size_t i = 0; i < n_global; ++i)
+        if (this->cloud.on_face[i] & 1u << face)
+        {
+          symmetry_planes.push_back(
+              {face_axis[face], this->cloud.position[i][face_axis[face]]});
+          break;
+        }
 }
 
 void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -215,6 +224,15 @@ SpgBody::particles_on_faces(const std::uint32_t faces) const
   return particles;
 }
 
+unsigned int SpgBody::symmetry_axes(const std::size_t i) const
+{
+  unsigned int axes = 0;
+  for (std::size_t face = 0; face < face_axis.size(); ++face)
+    if (on_face[i] & options.symmetry_faces & 1u << face)
+      axes |= 1u << face_axis[face];
+  return axes;
+}
+
 ContactSurface SpgBody::contact_surface() const
 {
   // Any particle may come to lie open, so all may touch faces.
@@ -224,13 +242,9 @@ ContactSurface SpgBody::contact_surface() const
     surface.nodes[i] = i;
   if (options.symmetry_faces != 0)
     for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    {
-      unsigned int planes = 0; // a bit per axis
-      for (std::size_t face = 0; face < face_axis.size(); ++face)
-        if (on_face[i] & options.symmetry_faces & 1u << face)
-          planes |= 1u << face_axis[face];
-      surface.node_share.push_back(std::ldexp(1., -__builtin_popcount(planes)));
-    }
+      surface.node_share.push_back(
+          std::ldexp(1., -__builtin_popcount(symmetry_axes(i))));
+  surface.symmetry_planes = symmetry_planes;
   surface.bulk_modulus = material->bulk_modulus();
   surface.spacing = mean_spacing;
   return surface;
@@ -270,8 +284,9 @@ SurfacePoint SpgBody::surface_point(const std::size_t i) const
     mean += 1. / norm(dX) * dX;
     moment += bonds.weight[b] * (kernel_position[j] - kernel_position[i]);
   }
+  const unsigned int planes = symmetry_axes(i);
   for (int d = 0; d < 3; ++d)
-    if ((on_face[i] & options.symmetry_faces) >> (2 * d) & 3)
+    if (planes >> d & 1)
       mean[d] = moment[d] = 0.; // the mirror image has the other half
   SurfacePoint point;
   const double length = norm(mean) / std::max<std::size_t>(1, bonds.n_bonds(i));
@@ -285,6 +300,31 @@ SurfacePoint SpgBody::surface_point(const std::size_t i) const
   const Mat F = deformation_gradient(i);
   point.spacing = mean_spacing * std::sqrt(std::abs(determinant(F)) /
                                            norm(transpose(F) * point.normal));
+  return point;
+}
+
+VolumePoint SpgBody::volume_point(const std::size_t i) const
+{
+  // 1.75 spacings: half of the space is filled within 0.005 spacings of a
+  // lattice's face wherever along it, and deep inside 0.98 to 1.005 of it; 1.5
+  // make bumps of 0.08, and more rounds edges more.
+  constexpr double radius = 1.75;
+  VolumePoint point;
+  double volume = reference_volume[i];
+  if (weak[i])
+  {
+    // What lost a direction has no shape to speak of.
+    point.to_unit = 1. / (radius * local_spacing(i)) * Mat::identity();
+  }
+  else
+  {
+    const Mat to_space =
+        (radius / options.normalized_support) * (gradient[i] * kernel[i]);
+    point.to_unit = inverse(to_space);
+    volume = kernel_volume[i] * determinant(gradient[i]);
+  }
+  // The integral of the spline over the unit ball is pi/12.
+  point.content = 12. / M_PI * volume * std::abs(determinant(point.to_unit));
   return point;
 }
 

@@ -64,6 +64,7 @@ public:
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
   SurfacePoint surface_point(const std::size_t i) const override;
+  VolumePoint volume_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
   std::vector<Fragment> fragments() const override;
@@ -117,6 +118,9 @@ private:
   /** Edge of the cube as large as the cell of an owned particle's lattice at
       the start [m]; mean_spacing in a regular lattice. */
   double local_spacing(const std::size_t i) const;
+  /** Axes across which owned particle @p i lies on a plane of symmetry, a bit
+      each. */
+  unsigned int symmetry_axes(const std::size_t i) const;
 
   // spg_kernel.cc
   void set_up_kernel();
@@ -202,8 +206,9 @@ private:
   std::array<double, 3> spacing;
   double mean_spacing = 0.;
   std::vector<int> face_axis; // across each boundary id, -1: not a plane
-  bool is_regular;            // one kernel at the start for all
-  std::vector<int> rank_of;   // of every particle, for new neighbours
+  std::vector<SymmetryPlane> symmetry_planes;
+  bool is_regular;          // one kernel at the start for all
+  std::vector<int> rank_of; // of every particle, for new neighbours
   GhostExchange node_exchange;
   BondList bonds;
 

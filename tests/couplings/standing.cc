@@ -1,0 +1,186 @@
+#include "sabot/couplings/mirror_images.h"
+#include "sabot/couplings/particle_standing.h"
+#include "sabot/verification/world.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace sabot;
+
+constexpr double h = 1e-3;
+
+/** A block of particles below z = 0, deformed by @p F. */
+struct Block
+{
+  std::vector<Vec> position;
+  AlignedVector<VolumePoint> volume;
+
+  Block(const std::array<double, 3> &size, const std::array<double, 3> &centre,
+        const Mat &F, const std::uint32_t symmetry = 0)
+  {
+    SpgOptions options;
+    options.symmetry_faces = symmetry;
+    World world;
+    world.bodies.push_back(std::make_unique<SpgBody>(
+        "block", 0, make_box_cloud(centre, size, h), elastic(), options));
+    world.distribute();
+    // Through a kernel update, as in a run.
+    NodalState &n = world.bodies[0]->nodes();
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+      n.position[i] = F * n.reference_position[i];
+    world.bodies[0]->update_ghosts();
+    world.bodies[0]->compute_forces(0., 1e-9);
+    world.bodies[0]->update_topology(30, 0.);
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+    {
+      position.push_back(n.position[i]);
+      volume.push_back(world.bodies[0]->volume_point(i));
+    }
+  }
+
+  Standing standing(const Vec x, std::vector<NearParticle> &near,
+                    const MirrorImages &images = MirrorImages()) const
+  {
+    near.clear();
+    for (std::size_t i = 0; i < position.size(); ++i)
+      for (unsigned int image = 0; image < images.size(); ++image)
+        near.push_back(
+            {i, images.axes(image), x - images(position[i], image), 0.});
+    return stand_in_volume(near, volume);
+  }
+};
+
+std::vector<Mat> deformations()
+{
+  Mat shear = Mat::identity(), flat = Mat::identity(), long_one = flat;
+  shear.set(0, 2, 1.2);
+  for (int d = 0; d < 3; ++d)
+  {
+    flat.set(d, d, d == 2 ? 0.4 : 1.6);
+    long_one.set(d, d, d == 2 ? 1.7 : 0.75);
+  }
+  return {Mat::identity(), shear, flat, long_one};
+}
+
+TEST(Standing, a_volume_ends_where_its_lattice_does)
+{
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  for (const Mat &F : deformations())
+  {
+    const Block block({{10e-3, 10e-3, 6e-3}}, {{0., 0., -3e-3}}, F);
+    const double along_normal = F(2, 2) * h; // spacing of the layers
+    std::vector<NearParticle> near;
+    for (int k = 0; k < 50; ++k)
+      for (const double depth : {0., 0.1, 0.25, 0.5})
+      {
+        const Vec x =
+            F * vec(uniform(generator) * h, uniform(generator) * h, 0.) -
+            vec(0., 0., depth * along_normal);
+        const Standing s = block.standing(x, near);
+        // The lattice moves the place where half is filled by 0.005 spacings,
+        // and down to half a spacing bends the profile by 6 % (12 % where it is
+        // sheared) and tilts the normal by its slope inside, 0.06/h of 0.49/h
+        // where it is not deformed and 0.21 of it, 12 degrees, at most here.
+        EXPECT_NEAR(-s.gap, depth * along_normal,
+                    (0.006 + 0.12 * depth) * along_normal);
+        EXPECT_GT(s.normal[2], depth > 0.2 ? 0.978 : 0.998);
+        EXPECT_EQ(s.fade, s.gap < 0. ? 1. : 0.);
+        double sum = 0.;
+        Vec moment = {};
+        for (const NearParticle &p : near)
+        {
+          EXPECT_GE(p.weight, 0.);
+          sum += p.weight;
+          moment += p.weight * p.offset;
+        }
+        if (s.fade > 0.)
+        {
+          EXPECT_NEAR(sum, 1., 1e-12);
+          // What presses on the surface is borne there.
+          EXPECT_LT(norm(moment), (0.02 + 0.3 * depth) * h);
+        }
+      }
+  }
+}
+
+TEST(Standing, deep_inside_no_side_is_nearer_and_outside_nothing_is_met)
+{
+  const Block block({{8e-3, 8e-3, 8e-3}}, {{0., 0., -4e-3}}, Mat::identity());
+  std::vector<NearParticle> near;
+  for (const double t : {0., 0.2, 0.5})
+  {
+    const Standing s =
+        block.standing(vec(t * h, 0.3 * t * h, -4e-3 + t * h), near);
+    EXPECT_TRUE(s.is_deep);
+    EXPECT_EQ(s.fade, 0.);
+    EXPECT_EQ(block.standing(vec(0., 0., 0.05 * h), near).fade, 0.);
+  }
+}
+
+TEST(Standing, a_quarter_with_its_images_is_the_whole)
+{
+  const Block whole({{8e-3, 8e-3, 4e-3}}, {{0., 0., -2e-3}}, Mat::identity()),
+      quarter({{4e-3, 4e-3, 4e-3}}, {{2e-3, 2e-3, -2e-3}}, Mat::identity(),
+              0b000101);
+  const std::vector<SymmetryPlane> planes = {{0, 0.}, {1, 0.}};
+  for (const Vec x : {vec(0., 0., -0.1e-3), vec(0.3e-3, 0., -0.2e-3),
+                      vec(0.4e-3, 1.1e-3, -0.05e-3)})
+  {
+    MirrorImages images;
+    images.find(planes, x, 3. * h);
+    std::vector<NearParticle> of_whole, of_quarter;
+    const Standing a = whole.standing(x, of_whole),
+                   b = quarter.standing(x, of_quarter, images);
+    EXPECT_NEAR(a.gap, b.gap, 1e-12 * h);
+    EXPECT_NEAR(norm(a.normal - b.normal), 0., 1e-12);
+    double sum_a = 0., sum_b = 0.; // of the parts times the height
+    for (const NearParticle &p : of_whole)
+      sum_a += p.weight * p.offset[2];
+    for (const NearParticle &p : of_quarter)
+      sum_b += p.weight * p.offset[2];
+    EXPECT_NEAR(sum_a, sum_b, 1e-12 * h);
+  }
+}
+
+TEST(Standing, surface_of_a_quarter_cylinder_has_no_side_on_its_planes)
+{
+  // Its boundary ids are not in the order of a box's faces.
+  const double R = 8e-3, L = 10e-3;
+  SpgOptions options;
+  options.symmetry_faces = 1u << 3 | 1u << 4; // the cuts, across x and y
+  World world;
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "bar", 0,
+      make_mesh_cloud(make_cylinder(R, L, 2, {{0., 0., 0.5 * L}}, h, 2)),
+      elastic(), options));
+  world.distribute();
+  world.integrator.initialize();
+  const Body &bar = *world.bodies[0];
+  const NodalState &n = bar.nodes();
+  std::size_t n_foot = 0, n_inside = 0;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    const Vec x = n.position[i], normal = bar.surface_point(i).normal;
+    if (x[0] < 1e-9)
+      EXPECT_EQ(normal[0], 0.);
+    if (x[1] < 1e-9)
+      EXPECT_EQ(normal[1], 0.);
+    if (std::hypot(x[0], x[1]) > R - 2.5 * h)
+      continue;
+    if (x[2] < 1e-9)
+    {
+      EXPECT_LT(normal[2], -0.9);
+      ++n_foot;
+    }
+    else if (x[2] > 2.5 * h && x[2] < L - 2.5 * h)
+    {
+      EXPECT_EQ(norm_square(normal), 0.);
+      ++n_inside;
+    }
+  }
+  EXPECT_GT(n_foot, 15u);
+  EXPECT_GT(n_inside, 60u);
+}
+} // namespace
