@@ -265,11 +265,12 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 
 SurfacePoint SpgBody::surface_point(const std::size_t i) const
 {
-  // The mean direction to the neighbours points inwards where a side has none.
-  // Its length is 0.36 on a flat face of a lattice of which a particle sees 26
-  // neighbours (1/2 with very many), 0.55 (0.71) on an edge, 0.74 (0.87) on a
-  // corner, and 0 inside, less than 0.1 where spacings vary by a fifth.
-  constexpr double inside = 0.2, face = 0.45, edge = 0.55;
+  // The mean direction to the neighbours, by kernel weights, points inwards
+  // where a side has none. On a lattice with a support of 2 (1.5; very many
+  // neighbours) its length is 0.24 (0.20; 1/2) on a face, 0.41 (0.36; 0.71) on
+  // an edge, 0.62 (0.58; 0.87) on a corner and 0 inside; at most 0.15 where
+  // blocks of a mesh meet.
+  constexpr double inside = 0.19, face = 0.32, edge = 0.4;
   constexpr double least_flatness = 0.02;
   // Bonds that last are told by where they began.
   const Vec *const X =
@@ -277,11 +278,13 @@ SurfacePoint SpgBody::surface_point(const std::size_t i) const
           ? nodal_state.reference_position.data()
           : kernel_position.data();
   Vec mean = {}, moment = {};
+  double total = 0.;
   for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
   {
     const std::uint32_t j = bonds.neighbor[b];
     const Vec dX = X[j] - X[i];
-    mean += 1. / norm(dX) * dX;
+    total += bonds.weight[b];
+    mean += bonds.weight[b] / norm(dX) * dX;
     moment += bonds.weight[b] * (kernel_position[j] - kernel_position[i]);
   }
   const unsigned int planes = symmetry_axes(i);
@@ -289,7 +292,7 @@ SurfacePoint SpgBody::surface_point(const std::size_t i) const
     if (planes >> d & 1)
       mean[d] = moment[d] = 0.; // the mirror image has the other half
   SurfacePoint point;
-  const double length = norm(mean) / std::max<std::size_t>(1, bonds.n_bonds(i));
+  const double length = total > 0. ? norm(mean) / total : 0.;
   if (length <= inside || norm_square(moment) == 0.)
     return point;
   point.flatness =

@@ -139,6 +139,10 @@ void SpgBody::update_kernel(const std::size_t step)
       bonds.residual[b] =
           store(load(bonds.residual[b]) -
                 multiply_columns(A, kernel_position[bonds.neighbor[b]] - Xi));
+    // Residuals that grew while they had no stiffness hold no energy.
+    if (weak_before[i] && !weak[i])
+      std::fill(&bonds.residual[bonds.begin(i)], &bonds.residual[bonds.end(i)],
+                store(Vec{}));
     const bool became_weak = weak[i] && !weak_before[i];
     if (became_weak)
       release_tension(i);
