@@ -26,7 +26,7 @@ PAPER = {
     ("zone", "60 mm"): "nearly identical to 30 mm",
 }
 ORDER = ("spacing", "unyielding", "friction", "failure-strain", "zone", "projectile",
-         "projectile-spg",
+         "projectile-spg", "projectile-failing",
          "symmetry", "physics", "method", "projectile-taylor")
 
 
