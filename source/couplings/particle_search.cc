@@ -19,18 +19,28 @@ Box box_of(const Body &body, MPI_Comm communicator)
   return box;
 }
 
-/** Longest semi-axis of the ellipsoid |@p to_unit x| = 1, from above: the row
-    sums of H H^T bound its eigenvalues. */
-double largest_axis(const Mat &to_unit)
+/** Of all axes, sum of squares of the entries: bounds the largest stretch. */
+double frobenius(const Mat &A)
 {
-  const Mat axes = inverse(to_unit);
-  const Mat square = axes * transpose(axes);
-  double largest = 0.;
+  return std::sqrt(norm_square(A.row[0]) + norm_square(A.row[1]) +
+                   norm_square(A.row[2]));
+}
+
+/** Where nodes may touch @p particle. */
+Box box_around(const SearchedParticle &particle)
+{
+  // The ellipsoid's half width along an axis is the length of a row of H.
+  const Mat axes = inverse(particle.to_unit);
+  Box box;
+  Vec half;
   for (int d = 0; d < 3; ++d)
-    largest =
-        std::max(largest, std::abs(square(d, 0)) + std::abs(square(d, 1)) +
-                              std::abs(square(d, 2)));
-  return std::sqrt(largest);
+    half[d] = std::max(particle.reach, particle.unit_reach *
+                                           std::sqrt(axes(d, 0) * axes(d, 0) +
+                                                     axes(d, 1) * axes(d, 1) +
+                                                     axes(d, 2) * axes(d, 2)));
+  box.add(particle.x - half);
+  box.add(particle.x + half);
+  return box;
 }
 } // namespace
 
@@ -90,30 +100,36 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
       particle.is_open = is_loose[i] || particle.is_on_surface;
       // Tied followers are inside of what they are tied to.
       if (nodes.inertia[i] > 0.)
-        particle.reach =
-            std::max(std::sqrt(2.) * reach * point.spacing,
-                     largest_axis(bodies[b]->volume_point(i).to_unit)) +
-            skin;
+      {
+        particle.reach = std::sqrt(2.) * reach * point.spacing + skin;
+        particle.to_unit = bodies[b]->volume_point(i).to_unit;
+        // It may change its shape somewhat until the next search.
+        particle.unit_reach = 1.2 + skin * frobenius(particle.to_unit);
+      }
       my_particles.push_back(particle);
     }
   }
   std::vector<SearchedParticle> my_touchable;
   for (const SearchedParticle &particle : my_particles)
-    if (particle.reach > 0.)
+    if (particle.unit_reach > 0.)
       my_touchable.push_back(particle);
   touchable = gather_all(my_touchable, communicator);
   std::sort(touchable.begin(), touchable.end(),
             [](const SearchedParticle &a, const SearchedParticle &b)
             { return a.key < b.key; });
-  double longest = skin;
-  for (const SearchedParticle &particle : touchable)
-    longest = std::max(longest, particle.reach);
-  for (std::size_t s = 0; s < touchable.size(); ++s)
+  first.assign(bodies.size() + 1, touchable.size());
+  for (std::size_t s = touchable.size(); s-- > 0;)
+    first[touchable[s].key.body] = s;
+  for (std::size_t b = bodies.size(); b-- > 0;)
+    first[b] = std::min(first[b], first[b + 1]);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
   {
-    auto &of_body = buckets[touchable[s].key.body];
-    if (!of_body)
-      of_body = std::make_unique<PointBuckets>(longest);
-    of_body->add(touchable[s].x, s);
+    std::vector<Box> boxes;
+    for (std::size_t s = first[b]; s < first[b + 1]; ++s)
+      boxes.push_back(box_around(touchable[s]));
+    if (!boxes.empty())
+      buckets[b] =
+          std::make_unique<BoxBuckets>(boxes, reach * surfaces[b].spacing);
   }
 }
 
@@ -122,16 +138,14 @@ void ParticleSearch::near(const SearchedParticle &node, const int other,
 {
   if (!buckets[other])
     return;
-  const std::size_t first = found.size();
-  buckets[other]->for_near(
-      node.x,
-      [&](const std::size_t s)
-      {
-        const SearchedParticle &there = touchable[s];
-        if (norm_square(there.x - node.x) < there.reach * there.reach)
-          found.push_back({there.key, there.is_on_surface});
-      });
-  std::sort(found.begin() + first, found.end(),
-            [](const Member &a, const Member &b) { return a.key < b.key; });
+  const auto [begin, end] = buckets[other]->find(node.x);
+  for (const std::int32_t *item = begin; item != end; ++item)
+  {
+    const SearchedParticle &there = touchable[first[other] + *item];
+    const Vec d = node.x - there.x;
+    if ((there.is_on_surface && norm_square(d) < there.reach * there.reach) ||
+        norm_square(there.to_unit * d) < there.unit_reach * there.unit_reach)
+      found.push_back({there.key, there.is_on_surface});
+  }
 }
 } // namespace sabot

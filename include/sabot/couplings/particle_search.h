@@ -1,8 +1,8 @@
 #ifndef sabot_couplings_particle_search_h
 #define sabot_couplings_particle_search_h
 
+#include "sabot/couplings/box_buckets.h"
 #include "sabot/couplings/node_halo.h"
-#include "sabot/couplings/point_buckets.h"
 
 #include <memory>
 
@@ -13,7 +13,9 @@ struct SearchedParticle
 {
   NodeKey key;
   Vec x;
-  double reach;               // from which nodes may touch it [m]; 0: never
+  double reach;               // from which its surface may be met [m]
+  Mat to_unit;                // of its ellipsoid, VolumePoint
+  double unit_reach;          // from which that may be met [1]; 0: never
   double share;               // ContactSurface::node_share
   std::int32_t is_on_surface; // all bonds whole
   std::int32_t is_open;       // on the surface, or loose
@@ -56,7 +58,8 @@ private:
   std::vector<ContactSurface> surfaces;
   double smallest_gap = 0.;
   std::vector<SearchedParticle> my_particles, touchable; // of all ranks
-  std::vector<std::unique_ptr<PointBuckets>> buckets;    // per body
+  std::vector<std::unique_ptr<BoxBuckets>> buckets;      // per body
+  std::vector<std::size_t> first; // of each body's particles in touchable
 };
 } // namespace sabot
 

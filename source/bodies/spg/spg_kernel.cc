@@ -210,7 +210,10 @@ void SpgBody::compute_moments()
             : damped_inverse(M, lost_direction * intact_eigenvalue[i],
                              n_damped);
     moment_inverse[i] = transpose(H_inverse) * inverse_moment * H_inverse;
-    weak[i] = n_damped > 0;
+    // Nor is a crack that has opened healed before it closes: the pressure goes
+    // by the volume, and would spring up.
+    weak[i] =
+        n_damped > 0 || (weak[i] && kernel_volume[i] > reference_volume[i]);
     const double S = std::max(spread, 0.5 * intact_spread[i]);
     bond_stiffness[i] =
         !has_residuals || weak[i] || S == 0.
