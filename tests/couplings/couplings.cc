@@ -1,4 +1,3 @@
-#include "sabot/verification/balance.h"
 #include "sabot/verification/world.h"
 
 #include "sabot/couplings/contact.h"
@@ -361,53 +360,5 @@ TEST(SelfContact, two_failed_particles_meet_and_part)
     else if (n.reference_position[i][0] < -3.5e-3)
       left = std::max(left, n.position[i][0]);
   EXPECT_GT(right, left + 2e-3);
-}
-
-TEST(SelfContact, cracks_heal_where_they_have_closed)
-{
-  // Pulled until it cracks and pressed together again, some particles regain
-  // their neighbourhood. With the cracks' volume still open the pressure, which
-  // goes by the volume, would spring up as tension.
-  World world;
-  SpgOptions options;
-  options.critical_effective_plastic_strain = 0.05;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{100e6, 0., 1.});
-  world.bodies.push_back(std::make_unique<SpgBody>(
-      "bar", 0, make_box_cloud({{0, 0, 0}}, {{8e-3, 4e-3, 4e-3}}, 1e-3), metal,
-      options));
-  world.couplings.push_back(std::make_unique<SelfContact>(
-      "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
-      SelfContactOptions(), MPI_COMM_WORLD));
-  world.distribute();
-  const auto &bar = static_cast<const SpgBody &>(*world.bodies[0]);
-  NodalState &n = world.bodies[0]->nodes();
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-    n.velocity[i] = vec(4e4 * n.reference_position[i][0], 0, 0);
-  world.integrator.initialize();
-  while (world.integrator.time < 6e-6)
-    world.advance(0.9);
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-    n.velocity[i] = vec(-6e4 * n.reference_position[i][0], 0, 0);
-  EnergyWatch watch(world);
-  std::vector<char> was_weak(n.n_owned, 0);
-  std::size_t n_weak = 0, n_healed = 0;
-  while (world.integrator.time < 25e-6)
-  {
-    for (std::size_t i = 0; i < n.n_owned; ++i)
-      n_weak += was_weak[i] = bar.is_weak(i);
-    world.advance(0.9);
-    watch.look();
-    for (std::size_t i = 0; i < n.n_owned; ++i)
-      if (was_weak[i] && !bar.is_weak(i))
-      {
-        ++n_healed;
-        EXPECT_LT(determinant(bar.deformation_gradient(i)), 1. + 1e-9);
-      }
-  }
-  printf("%zu %zu %g\n", n_weak, n_healed, watch.residual());
-  EXPECT_GT(n_healed, 0u);
-  EXPECT_LT(watch.residual(), 0.01);
 }
 } // namespace
