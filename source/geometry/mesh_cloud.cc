@@ -97,6 +97,21 @@ ParticleCloud make_mesh_cloud(const HexMesh &mesh)
   }
   cloud.spacing = {{mean, mean, mean}};
 
+  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
+  {
+    const auto &face = mesh.boundary_faces[f];
+    Vec x[4];
+    for (int a = 0; a < 4; ++a)
+    {
+      const auto &p = mesh.nodes[face[a]];
+      x[a] = vec(p[0], p[1], p[2]);
+    }
+    // A quarter of the area vector each.
+    const Vec area = 0.125 * cross(x[2] - x[0], x[3] - x[1]);
+    for (const GlobalIndex a : face)
+      cloud.face_shares.push_back({std::size_t(a), mesh.boundary_id[f], area});
+  }
+
   cloud.face_axis.clear();
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {

@@ -64,10 +64,43 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
       volume *= cloud.spacing[d] * (low || high ? 0.5 : 1.);
       faces |= (low ? 1u : 0u) << (2 * d) | (high ? 1u : 0u) << (2 * d + 1);
     }
+    for (unsigned int id = 0; id < 6; ++id)
+      if (faces >> id & 1)
+      {
+        const unsigned int d = id / 2;
+        Vec area = {};
+        // What is left of the volume: half of a layer stands behind the face.
+        area[d] = (id % 2 ? 2. : -2.) * volume / cloud.spacing[d];
+        cloud.face_shares.push_back({cloud.position.size(), id, area});
+      }
     cloud.position.push_back(x);
     cloud.volume.push_back(volume);
     cloud.on_face.push_back(faces);
   }
   return cloud;
+}
+
+AlignedVector<Vec> outward_normals(const ParticleCloud &cloud,
+                                   const std::uint32_t without)
+{
+  const std::size_t n = cloud.position.size();
+  const auto counts = [&](const ParticleCloud::FaceShare &share)
+  { return share.id >= ParticleCloud::n_faces || !(without >> share.id & 1); };
+  AlignedVector<Vec> normal(n, Vec{});
+  for (const ParticleCloud::FaceShare &share : cloud.face_shares)
+    if (counts(share))
+      normal[share.particle] += share.area;
+  for (Vec &v : normal)
+    if (norm_square(v) > 0.)
+      v *= 1. / norm(v);
+  std::vector<double> least(n, 1.);
+  for (const ParticleCloud::FaceShare &share : cloud.face_shares)
+    if (counts(share) && norm_square(share.area) > 0.)
+      least[share.particle] =
+          std::min(least[share.particle],
+                   dot(share.area, normal[share.particle]) / norm(share.area));
+  for (std::size_t i = 0; i < n; ++i)
+    normal[i] *= std::max(0., least[i]);
+  return normal;
 }
 } // namespace sabot

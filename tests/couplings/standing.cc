@@ -144,9 +144,10 @@ TEST(Standing, a_quarter_with_its_images_is_the_whole)
   }
 }
 
-TEST(Standing, surface_of_a_quarter_cylinder_has_no_side_on_its_planes)
+TEST(Standing, surface_of_a_quarter_cylinder_is_its_foot_top_and_side)
 {
-  // Its boundary ids are not in the order of a box's faces.
+  // Its boundary ids are not in the order of a box's faces, its particles are
+  // not on a lattice.
   const double R = 8e-3, L = 10e-3;
   SpgOptions options;
   options.symmetry_faces = 1u << 3 | 1u << 4; // the cuts, across x and y
@@ -156,31 +157,46 @@ TEST(Standing, surface_of_a_quarter_cylinder_has_no_side_on_its_planes)
       make_mesh_cloud(make_cylinder(R, L, 2, {{0., 0., 0.5 * L}}, h, 2)),
       elastic(), options));
   world.distribute();
-  world.integrator.initialize();
   const Body &bar = *world.bodies[0];
   const NodalState &n = bar.nodes();
-  std::size_t n_foot = 0, n_inside = 0;
+  std::size_t n_foot = 0, n_side = 0, n_rim = 0, n_inside = 0;
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
-    const Vec x = n.position[i], normal = bar.surface_point(i).normal;
-    if (x[0] < 1e-9)
-      EXPECT_EQ(normal[0], 0.);
-    if (x[1] < 1e-9)
-      EXPECT_EQ(normal[1], 0.);
-    if (std::hypot(x[0], x[1]) > R - 2.5 * h)
-      continue;
-    if (x[2] < 1e-9)
+    const Vec x = n.position[i];
+    const SurfacePoint point = bar.surface_point(i);
+    const double r = std::hypot(x[0], x[1]);
+    const bool on_side = r > R - 1e-6,
+               on_foot = x[2]<1e-9, on_top = x[2]> L - 1e-9;
+    // Mirror images take away what would look across a plane.
+    for (int d = 0; d < 2; ++d)
+      if (x[d] < 1e-9)
+        EXPECT_EQ(point.normal[d], 0.);
+    if (on_side && (on_foot || on_top))
     {
-      EXPECT_LT(normal[2], -0.9);
-      ++n_foot;
+      EXPECT_LT(point.flatness, 0.1);
+      ++n_rim;
     }
-    else if (x[2] > 2.5 * h && x[2] < L - 2.5 * h)
+    else if (on_side)
     {
-      EXPECT_EQ(norm_square(normal), 0.);
+      EXPECT_GT(dot(point.normal, 1. / r * vec(x[0], x[1], 0.)), 1. - 1e-6);
+      EXPECT_EQ(point.flatness, 1.);
+      ++n_side;
+    }
+    else if (on_foot || on_top)
+    {
+      EXPECT_NEAR(point.normal[2], on_foot ? -1. : 1., 1e-12);
+      EXPECT_EQ(point.flatness, 1.);
+      n_foot += on_foot;
+    }
+    else
+    {
+      EXPECT_EQ(norm_square(point.normal), 0.);
       ++n_inside;
     }
   }
-  EXPECT_GT(n_foot, 15u);
-  EXPECT_GT(n_inside, 60u);
+  EXPECT_GT(n_foot, 40u);
+  EXPECT_GT(n_side, 80u);
+  EXPECT_GT(n_rim, 20u);
+  EXPECT_GT(n_inside, 400u);
 }
 } // namespace

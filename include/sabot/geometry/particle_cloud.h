@@ -22,6 +22,14 @@ struct ParticleCloud
       bits 0..5 = -x,+x,-y,+y,-z,+z. */
   std::vector<std::uint32_t> on_face;
   static constexpr unsigned int n_faces = 32;
+  /** Shares of particles in the areas of boundary faces, outwards [m^2]. */
+  struct FaceShare
+  {
+    std::size_t particle;
+    unsigned int id;
+    Vec area;
+  };
+  std::vector<FaceShare> face_shares;
   /** Axis across which the face of each boundary id is a plane, -1: none. */
   std::vector<int> face_axis{0, 0, 1, 1, 2, 2};
   /**
@@ -56,6 +64,14 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
  * neighbours there as in a cubic lattice.
  */
 ParticleCloud make_mesh_cloud(const HexMesh &mesh);
+
+/**
+ * Per particle the outward unit normal of the boundary without the boundary ids
+ * in @p without (a bit each), times the least cosine to it of the normals of
+ * the faces around: less than 1 on edges. Zero inside.
+ */
+AlignedVector<Vec> outward_normals(const ParticleCloud &cloud,
+                                   const std::uint32_t without);
 
 /** Number of intervals of about @p spacing in @p length, at least one. */
 unsigned int n_intervals(const double length, const double spacing);

@@ -82,6 +82,9 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   nodal_state.n_owned = n;
   nodal_state.global_id = ids;
   on_face.resize(n);
+  const AlignedVector<Vec> normals =
+      outward_normals(cloud, options.symmetry_faces);
+  outward.resize(n);
   reference_volume.resize(n);
   const auto &v = options.initial_velocity;
   for (std::size_t i = 0; i < n; ++i)
@@ -95,6 +98,14 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     nodal_state.lumped_mass[i] = nodal_state.inertia[i] =
         material->density() * volume;
     on_face[i] = cloud.on_face[ids[i]];
+    // Its mirror image has the other half of a plane's facets.
+    Vec normal = normals[ids[i]];
+    for (int d = 0; d < 3; ++d)
+      if (symmetry_axes(i) >> d & 1)
+        normal[d] = 0.;
+    outward[i] = norm_square(normal) > 0.
+                     ? norm(normals[ids[i]]) / norm(normal) * normal
+                     : normal;
     reference_volume[i] = volume;
     for (std::size_t face = 0; face < face_axis.size(); ++face)
       if (on_face[i] & options.symmetry_faces & 1u << face)
@@ -265,42 +276,20 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 
 SurfacePoint SpgBody::surface_point(const std::size_t i) const
 {
-  // The mean direction to the neighbours, by kernel weights, points inwards
-  // where a side has none. On a lattice with a support of 2 (1.5; very many
-  // neighbours) its length is 0.24 (0.20; 1/2) on a face, 0.41 (0.36; 0.71) on
-  // an edge, 0.62 (0.58; 0.87) on a corner and 0 inside; at most 0.15 where
-  // blocks of a mesh meet.
-  constexpr double inside = 0.19, face = 0.32, edge = 0.4;
-  constexpr double least_flatness = 0.02;
-  // Bonds that last are told by where they began.
-  const Vec *const X =
-      options.neighbor_policy == SpgOptions::NeighborPolicy::lagrangian
-          ? nodal_state.reference_position.data()
-          : kernel_position.data();
-  Vec mean = {}, moment = {};
-  double total = 0.;
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-  {
-    const std::uint32_t j = bonds.neighbor[b];
-    const Vec dX = X[j] - X[i];
-    total += bonds.weight[b];
-    mean += bonds.weight[b] / norm(dX) * dX;
-    moment += bonds.weight[b] * (kernel_position[j] - kernel_position[i]);
-  }
-  const unsigned int planes = symmetry_axes(i);
-  for (int d = 0; d < 3; ++d)
-    if (planes >> d & 1)
-      mean[d] = moment[d] = 0.; // the mirror image has the other half
+  // From the cosine of the normals that meet at a particle: an edge of 90
+  // degrees has none of its own, a facet of a round side (0.92 with eight
+  // around) does.
+  constexpr double edge = 0.75, face = 0.9, least_flatness = 0.02;
   SurfacePoint point;
-  const double length = total > 0. ? norm(mean) / total : 0.;
-  if (length <= inside || norm_square(moment) == 0.)
+  const double cosine = norm(outward[i]);
+  if (!(cosine > 0.))
     return point;
   point.flatness =
-      std::clamp((edge - length) / (edge - face), least_flatness, 1.);
+      std::clamp((cosine - edge) / (face - edge), least_flatness, 1.);
   // Normals go with F^-T, areas with det F over the length of F^T n.
-  point.normal = -1. * (transpose(inverse(gradient[i])) * moment);
-  point.normal *= 1. / norm(point.normal);
   const Mat F = deformation_gradient(i);
+  point.normal = transpose(inverse(F)) * outward[i];
+  point.normal *= 1. / norm(point.normal);
   point.spacing = mean_spacing * std::sqrt(std::abs(determinant(F)) /
                                            norm(transpose(F) * point.normal));
   return point;
