@@ -141,8 +141,8 @@ void SpgBody::update_kernel(const std::size_t step)
                 multiply_columns(A, kernel_position[bonds.neighbor[b]] - Xi));
     // Residuals that grew while they had no stiffness hold no energy.
     if (weak_before[i] && !weak[i])
-      std::fill(&bonds.residual[bonds.begin(i)], &bonds.residual[bonds.end(i)],
-                store(Vec{}));
+      std::fill(bonds.residual.begin() + bonds.begin(i),
+                bonds.residual.begin() + bonds.end(i), store(Vec{}));
     const bool became_weak = weak[i] && !weak_before[i];
     if (became_weak)
       release_tension(i);
