@@ -190,6 +190,17 @@ def print_targets(studies):
     if strain:
         target("failure strain 0.4 against 0.2", 2, [tuple(
             strain.value(failure_strain="SPG " + s) for s in ("0.4", "0.2"))])
+    failing = studies.get("projectile-failing")
+    if failing:
+        base = {"failure_strain": "0.4", "friction": "0.3", "model": "quarter"}
+        at = lambda h: failing.value(spacing=h, **base)
+        what = "projectile that fails: "
+        target(what + "against 344 m/s at 1.0 and 0.75 mm", 1,
+               [(at(h), MEASURED) for h in ("1.0 mm", "0.75 mm")])
+        target(what + "0.75 against 0.5 mm", 2, [(at("0.75 mm"), at("0.5 mm"))])
+        target(what + "failure strain 0.4 against 0.2", 2, [(
+            at("1.0 mm"), failing.value(**dict(
+                base, spacing="1.0 mm", failure_strain="0.2")))])
     zone = studies.get("zone")
     if zone:
         target("zone of 30 against 60 mm", 1, [tuple(
@@ -258,7 +269,7 @@ def main():
             print_zone(study)
         if study.name == "method":
             print_prices(study)
-        if study.name in ("spacing", "projectile"):
+        if study.name in ("spacing", "projectile", "projectile-failing"):
             print_energies(study)
     if arguments.figures:
         copy_figures(studies, arguments.figures)
