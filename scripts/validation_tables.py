@@ -78,13 +78,16 @@ def print_study(study):
           "results/validation/%s --runs results/validation/runs\n"
           % (study.name, study.name))
     has_speed = "residual velocity [m/s]" in study.quantities
-    has_paper = any((p, row[p]) in PAPER for row in study.rows
-                    for p in study.parameters)
+    has_paper = study.name != "projectile-failing" and any(
+        (p, row[p]) in PAPER for row in study.rows for p in study.parameters)
     head = list(study.parameters)
     has_measured = has_speed and study.name != "unyielding"
     head += ["residual velocity m/s"] + (
         ["against 344 %"] if has_measured else []) if has_speed else [
         q for q in study.quantities]
+    # What is left of a projectile that sheds debris.
+    has_pieces = study.name == "projectile-failing"
+    head += ["largest piece m/s", "its share %"] if has_pieces else []
     head += ["paper"] if has_paper else []
     head += ["energy residual %", "steps", "CPU s"]
     rows = []
@@ -103,6 +106,12 @@ def print_study(study):
                 cells += ["%+.1f" % (100 * (v - MEASURED) / MEASURED)]
         else:
             cells += [number(row[q], "%.5g") for q in study.quantities]
+        if has_pieces:
+            slug = study.result(row).get("bodies", {}).get("slug", {})
+            piece = (slug.get("fragments") or [None])[0]
+            cells += ["–", "–"] if not done or not piece else [
+                "%.1f" % -piece["velocity"][2],
+                "%.0f" % (100 * piece["mass"] / slug["mass"])]
         if has_paper:
             cells.append("; ".join(PAPER[p, row[p]] for p in study.parameters
                                    if (p, row[p]) in PAPER))
@@ -227,6 +236,8 @@ def copy_figures(studies, folder):
                         ("spacing", "residual-velocity-over-penetration-depth"),
                         ("spacing", "residual-velocity-at-spacing"),
                         ("friction", "residual-velocity-history"),
+                        ("projectile-failing", "residual-velocity-history"),
+                        ("projectile-failing", "residual-velocity-at-spacing"),
                         ("method", "cost-residual-velocity")):
         if name in studies:
             source = os.path.join(studies[name].folder, "charts",
@@ -234,20 +245,27 @@ def copy_figures(studies, folder):
             if os.path.exists(source):
                 shutil.copy(source, os.path.join(
                     folder, "%s-%s.png" % (name, chart)))
-    if "spacing" not in studies:
-        return
-    for row in studies["spacing"].rows:
-        method = row["method"].lower().replace(" ", "-")
-        if row["status"] == "completed" and row is next(
-                r for r in studies["spacing"].rows
-                if r["method"] == row["method"]):
-            subprocess.run(
-                [os.path.join(ROOT, "build/release/sabot"), "picture",
-                 os.path.join(studies["spacing"].runs, row["run"]),
-                 "--time", "10 us, 30 us, 60 us, 100 us", "-o",
-                 os.path.join(folder, "section-%s.png" % method), "--title",
-                 "%s, %s" % (row["method"], row["spacing"])],
-                check=True, stdout=subprocess.DEVNULL)
+    # One of each method, and the projectile that fails at its finest.
+    shown = []
+    for name, label in (("spacing", "method"), ("projectile-failing", None)):
+        done = [row for row in studies[name].rows
+                if row["status"] == "completed"] if name in studies else []
+        if label:
+            for value in dict.fromkeys(row[label] for row in done):
+                row = next(r for r in done if r[label] == value)
+                shown.append((studies[name], row, value.lower().replace(
+                    " ", "-"), "%s, %s" % (value, row["spacing"])))
+        elif done:
+            row = min(done, key=lambda r: float(r["spacing"].split()[0]))
+            shown.append((studies[name], row, "failing-projectile",
+                          "projectile that fails, %s" % row["spacing"]))
+    for study, row, name, title in shown:
+        subprocess.run(
+            [os.path.join(ROOT, "build/release/sabot"), "picture",
+             os.path.join(study.runs, row["run"]),
+             "--time", "10 us, 30 us, 60 us, 100 us", "-o",
+             os.path.join(folder, "section-%s.png" % name), "--title", title],
+            check=True, stdout=subprocess.DEVNULL)
 
 
 def main():
