@@ -236,7 +236,8 @@ def copy_figures(studies, folder):
                         ("spacing", "residual-velocity-over-penetration-depth"),
                         ("spacing", "residual-velocity-at-spacing"),
                         ("friction", "residual-velocity-history"),
-                        ("projectile-failing", "residual-velocity-history"),
+                        ("projectile-failing",
+                         "residual-velocity-history-by-spacing"),
                         ("projectile-failing", "residual-velocity-at-spacing"),
                         ("method", "cost-residual-velocity")):
         if name in studies:
