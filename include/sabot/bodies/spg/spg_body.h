@@ -228,7 +228,7 @@ private:
 
   // Owned particles
   std::vector<std::uint32_t> on_face;
-  AlignedVector<Vec> outward; // at the start, outward_normals()
+  AlignedVector<Vec> outward;        // at the start, outward_normals()
   VelocityConstraints constraints;   // symmetry planes, clamped faces
   AlignedVector<Mat> initial_kernel; // H of the start, unless regular
   std::vector<double> reference_volume, kernel_volume;
