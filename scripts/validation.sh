@@ -29,7 +29,7 @@ for study in "${studies[@]}"; do
   settings=()
   if [ $quick = 1 ]; then
     fixed="End time=10 us"
-    [[ $study = projectile-taylor || $study = projectile-spg || $study = projectile-failing ]] ||
+    [[ $study = projectile-* ]] ||
       fixed+="; Bodies/projectile/Cell size=2.1 mm; Outputs/fields/Interval=5 us"
     # Spacings and cell sizes that the study itself varies stay as they are.
     case $study in

@@ -246,20 +246,21 @@ def copy_figures(studies, folder):
             if os.path.exists(source):
                 shutil.copy(source, os.path.join(
                     folder, "%s-%s.png" % (name, chart)))
-    # One of each method, and the projectile that fails at its finest.
-    shown = []
-    for name, label in (("spacing", "method"), ("projectile-failing", None)):
-        done = [row for row in studies[name].rows
-                if row["status"] == "completed"] if name in studies else []
-        if label:
-            for value in dict.fromkeys(row[label] for row in done):
-                row = next(r for r in done if r[label] == value)
-                shown.append((studies[name], row, value.lower().replace(
-                    " ", "-"), "%s, %s" % (value, row["spacing"])))
-        elif done:
-            row = min(done, key=lambda r: float(r["spacing"].split()[0]))
-            shown.append((studies[name], row, "failing-projectile",
-                          "projectile that fails, %s" % row["spacing"]))
+    # The first of each method, and the finest of the projectile that fails.
+    completed = {name: [row for row in study.rows
+                        if row["status"] == "completed"]
+                 for name, study in studies.items()}
+    shown, seen = [], set()
+    for row in completed.get("spacing", []):
+        if row["method"] not in seen:
+            seen.add(row["method"])
+            shown.append((studies["spacing"], row,
+                          row["method"].lower().replace(" ", "-"),
+                          "%s, %s" % (row["method"], row["spacing"])))
+    for row in sorted(completed.get("projectile-failing", []),
+                      key=lambda r: float(r["spacing"].split()[0]))[:1]:
+        shown.append((studies["projectile-failing"], row, "failing-projectile",
+                      "projectile that fails, %s" % row["spacing"]))
     for study, row, name, title in shown:
         subprocess.run(
             [os.path.join(ROOT, "build/release/sabot"), "picture",
