@@ -23,10 +23,11 @@ void ParticleContact::initialize()
   symmetry_planes.resize(bodies.size());
   for (const auto &[a, b] : pairs)
     for (const int body : {a, b})
-      symmetry_planes[body] = bodies[body]->contact_surface().symmetry_planes;
-  for (const auto &[a, b] : pairs)
-    for (const int body : {a, b})
-      skin = std::min(skin, 0.4 * bodies[body]->contact_surface().spacing);
+    {
+      const ContactSurface its = bodies[body]->contact_surface();
+      symmetry_planes[body] = its.symmetry_planes;
+      skin = std::min(skin, 0.4 * its.spacing);
+    }
   search();
   update_halo();
   for (std::size_t g = 0; g < groups.size(); ++g)

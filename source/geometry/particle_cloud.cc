@@ -69,7 +69,7 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
       {
         const unsigned int d = id / 2;
         Vec area = {};
-        // What is left of the volume: half of a layer stands behind the face.
+        // The volume behind a face is half a layer.
         area[d] = (id % 2 ? 2. : -2.) * volume / cloud.spacing[d];
         cloud.face_shares.push_back({cloud.position.size(), id, area});
       }

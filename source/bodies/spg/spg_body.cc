@@ -98,18 +98,19 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     nodal_state.lumped_mass[i] = nodal_state.inertia[i] =
         material->density() * volume;
     on_face[i] = cloud.on_face[ids[i]];
+    const unsigned int planes = symmetry_axes(i);
     // Its mirror image has the other half of a plane's facets.
     Vec normal = normals[ids[i]];
+    const double cosine = norm(normal);
     for (int d = 0; d < 3; ++d)
-      if (symmetry_axes(i) >> d & 1)
+      if (planes >> d & 1)
+      {
         normal[d] = 0.;
-    outward[i] = norm_square(normal) > 0.
-                     ? norm(normals[ids[i]]) / norm(normal) * normal
-                     : normal;
+        constraints.prescribe(i, d, 0.);
+      }
+    outward[i] =
+        norm_square(normal) > 0. ? cosine / norm(normal) * normal : normal;
     reference_volume[i] = volume;
-    for (std::size_t face = 0; face < face_axis.size(); ++face)
-      if (on_face[i] & options.symmetry_faces & 1u << face)
-        constraints.prescribe(i, face_axis[face], 0.);
     if (on_face[i] & options.clamped_faces)
       for (int d = 0; d < 3; ++d)
         constraints.prescribe(i, d, 0.);
