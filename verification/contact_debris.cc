@@ -26,7 +26,7 @@ Collision collide(const double stiffness_scale)
   World world;
   SpgOptions options;
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
-  options.critical_effective_plastic_strain = 0.1;
+  options.set_critical_plastic_strain(0.1);
   const auto metal = std::make_shared<HardeningPlasticity>(
       ElasticConstants{2700., 68.9e9, 0.33},
       HardeningParameters{324e6, 150e6, 1.});

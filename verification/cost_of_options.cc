@@ -1,3 +1,4 @@
+#include "sabot/base/choice.h"
 #include "verification/balance.h"
 #include "verification/problem.h"
 
@@ -166,7 +167,7 @@ std::vector<Check> costs()
   measured("particles: no heating", particles(spg, johnson_cook(cold)));
   {
     SpgOptions o = spg;
-    o.stabilization = SpgOptions::Stabilization::none;
+    o.stabilization = choose<Stabilization>("none");
     measured("particles: no stabilisation", particles(o, plain));
     o = spg;
     o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
@@ -176,9 +177,9 @@ std::vector<Check> costs()
     o.kernel_shape = SpgOptions::KernelShape::tensor;
     o.normalized_support = 1.5;
     measured("particles: convex 1.5, bond residual", particles(o, plain));
-    o.stabilization = SpgOptions::Stabilization::none;
+    o.stabilization = choose<Stabilization>("none");
     measured("particles: convex 1.5, no stabilisation", particles(o, plain));
-    o.stabilization = SpgOptions::Stabilization::second_gradient;
+    o.stabilization = choose<Stabilization>("second gradient");
     measured("particles: convex 1.5, second gradient", particles(o, plain));
     // Between steps: kernel updates, failure, smoothing.
     o = spg;
@@ -188,11 +189,11 @@ std::vector<Check> costs()
              particles(o, plain, true));
     measured("particles, with what is between steps: update every 30 steps",
              particles(spg, plain, true));
-    o.critical_effective_plastic_strain = 100.;
+    o.set_critical_plastic_strain(100.);
     measured("particles, with what is between steps: failure, none due",
              particles(o, plain, true));
     o = spg;
-    o.stabilization = SpgOptions::Stabilization::velocity_smoothing;
+    o.stabilization = choose<Stabilization>("velocity smoothing");
     measured("particles, with what is between steps: velocity smoothing",
              particles(o, plain, true));
   }

@@ -39,7 +39,7 @@ std::vector<Check> tension_bar()
     const double L = 12e-3, w = 3e-3, v = 250.;
     World world;
     SpgOptions o;
-    o.critical_effective_plastic_strain = 0.4;
+    o.set_critical_plastic_strain(0.4);
     const auto metal = std::make_shared<HardeningPlasticity>(
         aluminium, HardeningParameters{324e6, 150e6, 1.});
     world.bodies.push_back(std::make_unique<SpgBody>(

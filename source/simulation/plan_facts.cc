@@ -73,7 +73,8 @@ std::vector<BodyFacts> find_body_facts(Scene &scene)
     const std::vector<double> v = get_quantities(prm, "Initial velocity");
     f.velocity = {{v[0], v[1], v[2]}};
     f.failure_strain =
-        f.is_spg ? get_quantity(prm, "Critical effective plastic strain")
+        f.is_spg ? get_optional_quantity(prm, "Critical effective plastic strain")
+                       .value_or(never)
                  : never;
     if (f.failure_strain >= 1e10)
       f.failure_strain = never;

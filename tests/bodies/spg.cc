@@ -201,7 +201,7 @@ TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
 {
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.2;
+  options.set_critical_plastic_strain(0.2);
   const auto metal = std::make_shared<HardeningPlasticity>(
       ElasticConstants{2700., 68.9e9, 0.33},
       HardeningParameters{324e6, 150e6, 1.});
@@ -250,7 +250,7 @@ struct BreakingBlock
                          const double critical_stretch)
   {
     SpgOptions options;
-    options.critical_effective_plastic_strain = 0.45;
+    options.set_critical_plastic_strain(0.45);
     options.critical_stretch = critical_stretch;
     options.failure_check_interval = 1;
     options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
