@@ -1,9 +1,11 @@
+// Reads a study file: parameters, quantities, and the runs they make.
 #include "sabot/study/study_file.h"
 
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 
@@ -14,24 +16,6 @@ namespace sabot
 {
 namespace
 {
-
-std::string trim(const std::string &text)
-{
-  const std::size_t first = text.find_first_not_of(" \t"),
-                    last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-/** Parts between separators, trimmed; an empty text has none. */
-std::vector<std::string> split(const std::string &text, const char separator)
-{
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);)
-    parts.push_back(trim(part));
-  return parts;
-}
-
 /** SI value of the first quantity in a label, NaN when there is none. */
 double number_of(const std::string &label)
 {

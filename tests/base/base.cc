@@ -2,6 +2,7 @@
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,17 @@ TEST(Quantity, units_dimensions_and_ranges)
                     quantities(Dimension::length, 2, 2, 0., 1.), "");
   EXPECT_DOUBLE_EQ(get_quantity(prm, "Stress"), 324e6);
   EXPECT_DOUBLE_EQ(get_quantities(prm, "Size")[1], 0.02);
+}
+
+TEST(Text, is_trimmed_split_and_joined)
+{
+  EXPECT_EQ(trim(" \t a b\r\n"), "a b");
+  EXPECT_EQ(trim(" \n"), "");
+  EXPECT_EQ(split("a; ;b ;", ';'), (std::vector<std::string>{"a", "", "b"}));
+  EXPECT_TRUE(split("", ';').empty());
+  EXPECT_EQ(join({"a", "b", "c"}, "/"), "a/b/c");
+  EXPECT_EQ(formatted("%.3g mm", 2. / 3.), "0.667 mm");
+  EXPECT_TRUE(lines_of("/no/such/file").empty());
 }
 
 TEST(NearestName, finds_the_likely_one)
