@@ -40,8 +40,8 @@ void add_material_fields(std::vector<OutputField> &fields,
     }
 }
 
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
-                       const std::vector<char> *const left_out)
+BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                           const std::vector<char> *const left_out)
 {
   ExactSum mass, momentum[3], kinetic;
   double top[6];
@@ -65,17 +65,15 @@ Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
   ExactSum::reduce({&mass, &momentum[0], &momentum[1], &momentum[2], &kinetic},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 6, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = {{"mass", "kg", mass.value()}};
-  const char axis[] = {'x', 'y', 'z'};
-  for (int d = 0; d < 3; ++d)
-    measures.push_back(
-        {std::string("velocity ") + axis[d], "m/s",
-         mass.value() > 0. ? momentum[d].value() / mass.value() : 0.});
-  measures.push_back({"kinetic energy", "J", kinetic.value()});
+  BodyMeasures measures;
+  measures.mass = mass.value();
+  measures.kinetic_energy = kinetic.value();
   for (int d = 0; d < 3; ++d)
   {
-    measures.push_back({std::string("minimum ") + axis[d], "m", -top[3 + d]});
-    measures.push_back({std::string("maximum ") + axis[d], "m", top[d]});
+    measures.velocity[d] =
+        mass.value() > 0. ? momentum[d].value() / mass.value() : 0.;
+    measures.low[d] = -top[3 + d];
+    measures.high[d] = top[d];
   }
   return measures;
 }

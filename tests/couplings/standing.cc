@@ -35,7 +35,7 @@ struct Block
     for (std::size_t i = 0; i < n.n_owned; ++i)
     {
       position.push_back(n.position[i]);
-      volume.push_back(world.bodies[0]->volume_point(i));
+      volume.push_back(world.bodies[0]->particles()->volume_point(i));
     }
   }
 

@@ -36,8 +36,8 @@ void add_field(std::vector<OutputField> &fields, const std::string &name,
 /** Mass, velocity of the centre of mass, kinetic energy and bounding box of
     all owned nodes that are not left out ([n_owned], may be null). Collective,
     the same for every number of ranks. */
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
-                       const std::vector<char> *left_out = nullptr);
+BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                           const std::vector<char> *left_out = nullptr);
 
 /** Start of the array of a scalar state variable in [state][n], or null. */
 const double *find_state(const std::vector<StateVariable> &variables,

@@ -168,7 +168,7 @@ std::vector<GlobalIndex> SpgBody::fragment_labels() const
   return label;
 }
 
-std::vector<Fragment> SpgBody::fragments() const
+std::vector<Fragment> SpgBody::connected_pieces() const
 {
   const std::vector<GlobalIndex> label = fragment_labels();
   struct Sums

@@ -21,7 +21,7 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
   }
 }
 
-Measures SpgBody::measure() const
+BodyMeasures SpgBody::measure() const
 {
   const double *const eps = state_array("effective plastic strain");
   const double *const temperature = state_array("temperature");
@@ -51,24 +51,47 @@ Measures SpgBody::measure() const
                     &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = measure_nodes(nodal_state, communicator);
-  measures.push_back({"internal energy", "J", internal.value()});
-  measures.push_back({"stabilisation energy", "J", stabilization.value()});
-  measures.push_back({"plastic work", "J", plastic.value()});
+  BodyMeasures measures = measure_nodes(nodal_state, communicator);
+  measures.internal_energy = internal.value();
+  measures.own.push_back({"stabilisation energy", "J", stabilization.value()});
+  measures.own.push_back({"plastic work", "J", plastic.value()});
   if (options.can_fail())
-    measures.push_back({"failure energy", "J", failure.value()});
-  measures.push_back({"plastic strain max", "1", top[0]});
+    measures.own.push_back({"failure energy", "J", failure.value()});
+  measures.own.push_back({"plastic strain max", "1", top[0]});
   const double n = bonds_all.value();
-  measures.push_back(
-      {"bonds broken fraction", "1", n > 0. ? bonds_failed.value() / n : 0.});
-  measures.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
-  measures.push_back({"weak particles", "1", n_weak.value()});
-  measures.push_back({"isolated particles", "1", n_isolated.value()});
+  measures.bonds_broken_fraction = n > 0. ? bonds_failed.value() / n : 0.;
+  measures.own.push_back(
+      {"bonds broken fraction", "1", measures.bonds_broken_fraction});
+  measures.own.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
+  measures.own.push_back({"weak particles", "1", n_weak.value()});
+  measures.own.push_back({"isolated particles", "1", n_isolated.value()});
   if (options.approximation != SpgOptions::Approximation::least_squares)
-    measures.push_back({"approximation fallbacks", "1", fallbacks.value()});
+    measures.own.push_back({"approximation fallbacks", "1", fallbacks.value()});
   if (has_temperature)
-    measures.push_back({"temperature max", "K", top[1]});
+    measures.own.push_back({"temperature max", "K", top[1]});
   return measures;
+}
+
+std::vector<MaterialSite> SpgBody::material_sites() const
+{
+  const double *const eps = state_array("effective plastic strain");
+  std::vector<MaterialSite> sites(nodal_state.n_owned);
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  {
+    const Vec X = nodal_state.reference_position[i];
+    const double n = bonds.n_bonds(i) + n_failed[i];
+    sites[i] = {
+        {{X[0], X[1], X[2]}}, eps ? eps[i] : 0., n > 0. ? n_failed[i] / n : 0.};
+  }
+  return sites;
+}
+
+std::size_t SpgBody::n_bonds() const
+{
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    n += bonds.n_bonds(i);
+  return n;
 }
 
 OutputMesh SpgBody::output_mesh() const

@@ -32,7 +32,7 @@ namespace sabot
  * Every particle gathers its own force, neighbours in global order, so results
  * do not depend on the number of ranks.
  */
-class SpgBody : public Body
+class SpgBody : public Body, public ParticleView, public FragmentView
 {
 public:
   SpgBody(const std::string &name, const int id, ParticleCloud cloud,
@@ -56,7 +56,8 @@ public:
   bool update_topology(const unsigned int step, const double time) override;
 
   void add_energies(EnergyLedger &ledger) const override;
-  Measures measure() const override;
+  BodyMeasures measure() const override;
+  std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
 
@@ -67,7 +68,10 @@ public:
   VolumePoint volume_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
-  std::vector<Fragment> fragments() const override;
+  std::size_t n_bonds() const override;
+  const ParticleView *particles() const override { return this; }
+  const FragmentView *fragments() const override { return this; }
+  std::vector<Fragment> connected_pieces() const override;
 
   std::string item_name() const override { return "particles"; }
   GlobalIndex n_items() const override { return n_global; }
