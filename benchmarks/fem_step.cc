@@ -1,6 +1,6 @@
 // CPU time of the force loop of a FEM block, per cell-step:
 // build/release/benchmark_fem_step; see doc/performance.md
-#include "sabot/verification/world.h"
+#include "verification/world.h"
 
 #include <deal.II/base/mpi.h>
 

@@ -1,6 +1,6 @@
 // CPU time of the force loop of an SPG block, per particle-step.
 // spg_step --benchmark_filter=... ; see doc/performance.md
-#include "sabot/verification/world.h"
+#include "verification/world.h"
 
 #include <deal.II/base/mpi.h>
 

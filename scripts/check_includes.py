@@ -11,7 +11,7 @@ import tempfile
 
 FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
         "bodies/rigid", "bodies/spg", "couplings", "integrator", "output", "simulation",
-        "study", "verification", ""}
+        "study", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
 # Folder: folders or single headers that it may include, besides its own.
 ALLOWED = {
@@ -29,7 +29,6 @@ ALLOWED = {
     "simulation": FREE,
     "study": {"base", "output", "simulation"},
     "charts": set(),
-    "verification": FREE,
     "": FREE,
 }
 OUTSIDE_KERNELS = re.compile(r'#include\s+[<"](deal\.II|mpi|hdf5|vtk|CLI)')

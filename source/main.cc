@@ -7,7 +7,7 @@
 #include "sabot/study/pictures.h"
 #include "sabot/study/study.h"
 #include "sabot/study/study_file.h"
-#include "sabot/verification/problem.h"
+#include "verification/problem.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -118,26 +118,19 @@ ExitCode resume_run(const Arguments &arguments)
   }
 }
 
-ExitCode print_parameters(const Arguments &arguments)
+ExitCode describe_parameters(const Arguments &arguments)
 {
-  using dealii::ParameterHandler;
-  ParameterHandler prm;
+  Parameters prm;
   if (arguments.is_about_studies)
     StudyFile::declare(prm, {"<name>"}, {"<name>"});
   else
     Scene::declare(prm, nullptr);
-  const auto style = arguments.format == "prm"    ? ParameterHandler::Text
-                     : arguments.format == "json" ? ParameterHandler::JSON
-                     : arguments.format == "xml"
-                         ? ParameterHandler::XML
-                         : ParameterHandler::Description;
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
   {
     if (arguments.format == "markdown")
       print_manual(prm, std::cout);
     else
-      prm.print_parameters(std::cout,
-                           style | ParameterHandler::KeepDeclarationOrder);
+      sabot::print_parameters(prm, arguments.format, std::cout);
   }
   return ExitCode::done;
 }
@@ -302,7 +295,7 @@ int main(int argc, char **argv)
   return report_errors(speaks,
                        [&]()
                        {
-                         return *parameters     ? print_parameters(arguments)
+                         return *parameters     ? describe_parameters(arguments)
                                 : *verification ? run_verification(arguments)
                                 : *resume       ? resume_run(arguments)
                                 : *plan         ? plan_scene(arguments)

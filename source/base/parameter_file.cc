@@ -1,3 +1,4 @@
+// Reads parameter files with includes and overrides; writes manuals.
 #include "sabot/base/parameter_file.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -61,10 +62,10 @@ ordered_json plain_tree(const ordered_json &tree)
   return plain;
 }
 
-ordered_json declared_tree(const dealii::ParameterHandler &prm)
+ordered_json declared_tree(const Parameters &prm)
 {
   std::ostringstream text;
-  const_cast<dealii::ParameterHandler &>(prm).print_parameters(
+  const_cast<Parameters &>(prm).handler().print_parameters(
       text, dealii::ParameterHandler::JSON |
                 dealii::ParameterHandler::KeepDeclarationOrder);
   return plain_tree(ordered_json::parse(text.str()));
@@ -263,7 +264,7 @@ std::string ParameterFile::origin(const std::string &path) const
   return file_name;
 }
 
-void ParameterFile::parse_into(dealii::ParameterHandler &prm) const
+void ParameterFile::parse_into(Parameters &prm) const
 {
   const ordered_json tree = declared_tree(prm);
   for (const Entry &entry : entries)
@@ -305,15 +306,7 @@ void ParameterFile::parse_into(dealii::ParameterHandler &prm) const
     }
     for (const std::string &section : entry.section)
       prm.enter_subsection(section);
-    bool accepted = true;
-    try
-    {
-      prm.set(entry.name, entry.value);
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      accepted = false;
-    }
+    const bool accepted = prm.set(entry.name, entry.value);
     for (std::size_t i = 0; i < entry.section.size(); ++i)
       prm.leave_subsection();
     if (!accepted)
@@ -359,15 +352,27 @@ void print_section(const ordered_json &tree, const std::string &path,
 }
 } // namespace
 
-void print_manual(const dealii::ParameterHandler &prm, std::ostream &out)
+void print_manual(const Parameters &prm, std::ostream &out)
 {
   out << "# Parameters\n";
   print_section(declared_tree(prm), "", out);
 }
 
-void print_expanded(const dealii::ParameterHandler &prm, std::ostream &out)
+void print_parameters(const Parameters &prm, const std::string &format,
+                      std::ostream &out)
 {
-  const_cast<dealii::ParameterHandler &>(prm).print_parameters(
+  using dealii::ParameterHandler;
+  const auto style = format == "prm"    ? ParameterHandler::Text
+                     : format == "json" ? ParameterHandler::JSON
+                     : format == "xml"  ? ParameterHandler::XML
+                                        : ParameterHandler::Description;
+  const_cast<Parameters &>(prm).handler().print_parameters(
+      out, style | ParameterHandler::KeepDeclarationOrder);
+}
+
+void print_expanded(const Parameters &prm, std::ostream &out)
+{
+  const_cast<Parameters &>(prm).handler().print_parameters(
       out, dealii::ParameterHandler::Text |
                dealii::ParameterHandler::KeepDeclarationOrder);
 }

@@ -1,3 +1,4 @@
+// Quantities of scene files: numbers with units, and what an entry accepts.
 #include "sabot/base/quantity.h"
 
 #include <cmath>
@@ -99,17 +100,6 @@ std::string trim(const std::string &text)
                                     : text.substr(first, last - first + 1);
 }
 
-std::vector<std::string> split(const std::string &text)
-{
-  std::vector<std::string> items;
-  std::istringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');)
-    items.push_back(trim(item));
-  if (!text.empty() && text.back() == ',')
-    items.push_back("");
-  return items;
-}
-
 /** Number and unit; false when the text is no finite number. */
 bool read_number(const std::string &text, double &number, std::string &unit)
 {
@@ -129,6 +119,25 @@ const Unit *find_unit(const std::string &name)
   return nullptr;
 }
 
+std::string short_number(const double value)
+{
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+} // namespace
+
+std::vector<std::string> split_at_commas(const std::string &text)
+{
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');)
+    items.push_back(trim(item));
+  if (!text.empty() && text.back() == ',')
+    items.push_back("");
+  return items;
+}
+
 double to_si(const std::string &text)
 {
   double number;
@@ -142,14 +151,6 @@ double to_si(const std::string &text)
     throw std::invalid_argument("unknown unit in \"" + text + "\"");
   return number * unit->in_si;
 }
-
-std::string short_number(const double value)
-{
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
-} // namespace
 
 QuantityPattern::QuantityPattern(const Dimension dimension, const double min,
                                  const double max)
@@ -167,7 +168,7 @@ QuantityPattern::QuantityPattern(const Dimension dimension,
 
 bool QuantityPattern::match(const std::string &text) const
 {
-  const std::vector<std::string> items = split(text);
+  const std::vector<std::string> items = split_at_commas(text);
   if (items.size() < n_min || items.size() > n_max)
     return false;
   for (const std::string &item : items)
@@ -223,27 +224,4 @@ std::unique_ptr<dealii::Patterns::PatternBase> QuantityPattern::clone() const
   return std::make_unique<QuantityPattern>(*this);
 }
 
-double get_quantity(const dealii::ParameterHandler &prm,
-                    const std::string &name)
-{
-  return to_si(prm.get(name));
-}
-
-std::vector<double> get_quantities(const dealii::ParameterHandler &prm,
-                                   const std::string &name)
-{
-  std::vector<double> values;
-  for (const std::string &item : split(prm.get(name)))
-    values.push_back(to_si(item));
-  return values;
-}
-
-std::vector<std::string> split_names(const std::string &text)
-{
-  std::vector<std::string> names;
-  for (const std::string &name : split(text))
-    if (!name.empty())
-      names.push_back(name);
-  return names;
-}
 } // namespace sabot

@@ -15,7 +15,7 @@ namespace
 {
 const RegisterMaterial
     registered({"Elastic", "hypoelastic, objective rate of the body.", nullptr,
-                [](dealii::ParameterHandler &, const std::string &,
+                [](Parameters &, const std::string &,
                    const ElasticConstants &elastic, const ElasticBase::Eos &eos)
                 { return std::make_unique<Elastic>(elastic, eos); }});
 } // namespace

@@ -1,7 +1,7 @@
 #include "sabot/materials/equation_of_state.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/materials/elastic_base.h"
 
 #include <algorithm>
@@ -101,36 +101,33 @@ std::vector<std::string> EquationOfState::names()
   return {bulk_modulus_name, mie_gruneisen_name};
 }
 
-void EquationOfState::declare_parameters(dealii::ParameterHandler &prm,
+void EquationOfState::declare_parameters(Parameters &prm,
                                          const std::string &selected)
 {
   prm.declare_entry(
       "Equation of state", bulk_modulus_name,
-      dealii::Patterns::Selection(std::string(bulk_modulus_name) + "|" +
-                                  mie_gruneisen_name),
+      one_of(std::string(bulk_modulus_name) + "|" + mie_gruneisen_name),
       "Bulk modulus: pressure -K ln J with K of the elastic constants. "
       "Mie-Gruneisen: from shock data; Young's modulus and Poisson's ratio "
       "then give the shear modulus only.");
   if (selected == bulk_modulus_name)
     return;
   prm.enter_subsection(mie_gruneisen_name);
-  prm.declare_entry("Sound speed", "0",
-                    QuantityPattern(Dimension::velocity, 0., 2e4),
+  prm.declare_entry("Sound speed", "0", quantity(Dimension::velocity, 0., 2e4),
                     "c0 of Us = c0 + s up.");
-  prm.declare_entry("Shock slope", "1.5",
-                    QuantityPattern(Dimension::none, 0., 10.),
+  prm.declare_entry("Shock slope", "1.5", quantity(Dimension::none, 0., 10.),
                     "s of Us = c0 + s up.");
   prm.declare_entry("Gruneisen coefficient", "2",
-                    QuantityPattern(Dimension::none, 0., 10.), "Gamma0.");
+                    quantity(Dimension::none, 0., 10.), "Gamma0.");
   prm.declare_entry("Volume correction", "0",
-                    QuantityPattern(Dimension::none, -10., 10.),
+                    quantity(Dimension::none, -10., 10.),
                     "a: Gamma times density is (Gamma0 + a (rho/rho0 - 1)) "
                     "rho0.");
   prm.leave_subsection();
 }
 
 std::shared_ptr<const EquationOfState>
-EquationOfState::make(dealii::ParameterHandler &prm, const std::string &path,
+EquationOfState::make(Parameters &prm, const std::string &path,
                       const ElasticConstants &elastic,
                       std::vector<std::string> &warnings)
 {

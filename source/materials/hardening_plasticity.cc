@@ -1,5 +1,5 @@
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/materials/laws.h"
 
 #include <cmath>
@@ -88,8 +88,7 @@ void HardeningPlasticity::update_deviator(const MaterialBatch &b,
 
 namespace
 {
-HardeningParameters parse(dealii::ParameterHandler &prm,
-                          const std::string &path)
+HardeningParameters parse(Parameters &prm, const std::string &path)
 {
   HardeningParameters p;
   p.yield_stress = get_quantity(prm, "Yield stress");
@@ -137,30 +136,29 @@ const RegisterMaterial registered(
     {"Hardening plasticity",
      "J2 plasticity with linear or tabulated isotropic, kinematic or mixed "
      "hardening.",
-     [](dealii::ParameterHandler &prm)
+     [](Parameters &prm)
      {
        prm.declare_entry("Yield stress", "0",
-                         QuantityPattern(Dimension::pressure, 0., 1e12),
+                         quantity(Dimension::pressure, 0., 1e12),
                          "Initial yield stress.");
        prm.declare_entry("Hardening modulus", "0",
-                         QuantityPattern(Dimension::pressure, 0., 1e12),
+                         quantity(Dimension::pressure, 0., 1e12),
                          "Slope of stress against plastic strain.");
        prm.declare_entry("Isotropic fraction", "1",
-                         QuantityPattern(Dimension::none, 0., 1.),
+                         quantity(Dimension::none, 0., 1.),
                          "1: isotropic hardening, 0: kinematic. Stress in "
                          "monotonic loading does not depend on it.");
        prm.declare_entry(
            "Table of strains", "",
-           QuantityPattern(Dimension::none, 0, 1000, 0., 1e3),
+           quantities(Dimension::none, 0, 1000, 0., 1e3),
            "Effective plastic strains of a piecewise linear hardening curve, "
            "from 0 on, in place of yield stress and modulus.");
-       prm.declare_entry(
-           "Table of stresses", "",
-           QuantityPattern(Dimension::pressure, 0, 1000, 0., 1e12),
-           "Yield stresses at these strains, not decreasing; "
-           "constant beyond the last.");
+       prm.declare_entry("Table of stresses", "",
+                         quantities(Dimension::pressure, 0, 1000, 0., 1e12),
+                         "Yield stresses at these strains, not decreasing; "
+                         "constant beyond the last.");
      },
-     [](dealii::ParameterHandler &prm, const std::string &path,
+     [](Parameters &prm, const std::string &path,
         const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
        prm.enter_subsection("Hardening plasticity");

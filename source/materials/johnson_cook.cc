@@ -1,7 +1,7 @@
 #include "sabot/materials/johnson_cook.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/kernels/stress_update.h"
 
 namespace sabot
@@ -74,12 +74,12 @@ namespace
 {
 const char *const damage_names[5] = {"D1", "D2", "D3", "D4", "D5"};
 
-void declare(dealii::ParameterHandler &prm)
+void declare(Parameters &prm)
 {
   const auto entry = [&](const std::string &name, const std::string &value,
                          const Dimension d, const double low, const double high,
                          const std::string &text)
-  { prm.declare_entry(name, value, QuantityPattern(d, low, high), text); };
+  { prm.declare_entry(name, value, quantity(d, low, high), text); };
   entry("Initial yield stress", "0", Dimension::pressure, 0., 1e12, "A.");
   entry("Hardening modulus", "0", Dimension::pressure, 0., 1e12, "B.");
   entry("Hardening exponent", "1", Dimension::none, 0.001, 5., "n.");
@@ -92,7 +92,7 @@ void declare(dealii::ParameterHandler &prm)
   entry("Melt temperature", "1000 K", Dimension::temperature, 1., 1e5,
         "Temperature at which the strength is gone.");
   ThermalParameters::declare_parameters(prm, "294 K");
-  prm.declare_entry("Damage", "false", dealii::Patterns::Bool(),
+  prm.declare_entry("Damage", "false", boolean(),
                     "Whether to follow the fracture model of Johnson and Cook "
                     "1985 as the state \"damage\", 1 at fracture. It does not "
                     "change the stress.");
@@ -105,8 +105,8 @@ void declare(dealii::ParameterHandler &prm)
         "at high triaxiality.");
 }
 
-JohnsonCookParameters parse(dealii::ParameterHandler &prm,
-                            const std::string &path, const EquationOfState &eos)
+JohnsonCookParameters parse(Parameters &prm, const std::string &path,
+                            const EquationOfState &eos)
 {
   JohnsonCookParameters p;
   p.A = get_quantity(prm, "Initial yield stress");
@@ -149,7 +149,7 @@ const RegisterMaterial registered(
      "strain, strain-rate and thermal softening with adiabatic heating, "
      "optional damage.",
      declare,
-     [](dealii::ParameterHandler &prm, const std::string &path,
+     [](Parameters &prm, const std::string &path,
         const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
        prm.enter_subsection("Johnson-Cook");

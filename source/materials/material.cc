@@ -1,7 +1,7 @@
 #include "sabot/materials/material.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/materials/elastic_base.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ double Material::sound_speed() const
   return std::sqrt((bulk_modulus() + 4. / 3. * shear_modulus()) / density());
 }
 
-void Material::declare_parameters(dealii::ParameterHandler &prm,
+void Material::declare_parameters(Parameters &prm,
                                   const std::string &model_name,
                                   const std::string &equation_of_state)
 {
@@ -35,10 +35,8 @@ void Material::declare_parameters(dealii::ParameterHandler &prm,
     text += model.name + ": " + model.description + " ";
     known = known || model.name == model_name;
   }
-  prm.declare_entry("Model", "Elastic",
-                    dealii::Patterns::Selection(selection()), text);
-  prm.declare_entry("Source", "", dealii::Patterns::Anything(),
-                    "Where the values come from.");
+  prm.declare_entry("Model", "Elastic", one_of(selection()), text);
+  prm.declare_entry("Source", "", any_text(), "Where the values come from.");
   ElasticConstants::declare_parameters(prm);
   EquationOfState::declare_parameters(prm, equation_of_state);
   for (const MaterialModel &model : material_models())
@@ -75,7 +73,7 @@ void Material::check_subsections(const std::string &path,
   }
 }
 
-std::unique_ptr<Material> Material::make(dealii::ParameterHandler &prm,
+std::unique_ptr<Material> Material::make(Parameters &prm,
                                          const std::string &path)
 {
   const std::string name = prm.get("Model");
@@ -108,20 +106,18 @@ RegisterMaterial::RegisterMaterial(const MaterialModel &model)
   models.insert(position, model);
 }
 
-void ElasticConstants::declare_parameters(dealii::ParameterHandler &prm)
+void ElasticConstants::declare_parameters(Parameters &prm)
 {
-  prm.declare_entry("Density", "0",
-                    QuantityPattern(Dimension::density, 0., 1e5),
+  prm.declare_entry("Density", "0", quantity(Dimension::density, 0., 1e5),
                     "Density of the stress-free material.");
   prm.declare_entry("Young's modulus", "0",
-                    QuantityPattern(Dimension::pressure, 0., 1e13),
+                    quantity(Dimension::pressure, 0., 1e13),
                     "Modulus in uniaxial stress.");
   prm.declare_entry("Poisson's ratio", "0.3",
-                    QuantityPattern(Dimension::none, -0.99, 0.49999),
-                    "Below 0.5.");
+                    quantity(Dimension::none, -0.99, 0.49999), "Below 0.5.");
 }
 
-ElasticConstants ElasticConstants::parse(const dealii::ParameterHandler &prm,
+ElasticConstants ElasticConstants::parse(const Parameters &prm,
                                          const std::string &path)
 {
   ElasticConstants c;

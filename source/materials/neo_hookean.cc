@@ -60,8 +60,8 @@ namespace
 {
 const RegisterMaterial registered(
     {"Neo-Hookean", "hyperelastic, for finite elastic strain.", nullptr,
-     [](dealii::ParameterHandler &, const std::string &,
-        const ElasticConstants &elastic, const ElasticBase::Eos &eos)
+     [](Parameters &, const std::string &, const ElasticConstants &elastic,
+        const ElasticBase::Eos &eos)
      { return std::make_unique<NeoHookean>(elastic, eos); }});
 } // namespace
 } // namespace sabot

@@ -1,33 +1,33 @@
 #include "sabot/materials/rate_dependent.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 
 namespace sabot
 {
 void ThermalParameters::declare_parameters(
-    dealii::ParameterHandler &prm, const std::string &initial_temperature)
+    Parameters &prm, const std::string &initial_temperature)
 {
   prm.declare_entry("Initial temperature", initial_temperature,
-                    QuantityPattern(Dimension::temperature, 0., 1e4),
+                    quantity(Dimension::temperature, 0., 1e4),
                     "Temperature at time 0.");
   prm.declare_entry("Specific heat", "1000 J/kg/K",
-                    QuantityPattern(Dimension::specific_heat, 1., 1e6),
+                    quantity(Dimension::specific_heat, 1., 1e6),
                     "At constant pressure.");
   prm.declare_entry("Taylor-Quinney fraction", "0.9",
-                    QuantityPattern(Dimension::none, 0., 1.),
+                    quantity(Dimension::none, 0., 1.),
                     "Part of the plastic work that becomes heat; 0 switches "
                     "adiabatic heating off.");
   prm.declare_entry("Thermal conductivity", "0 W/m/K",
-                    QuantityPattern(Dimension::conductivity, 0., 1e5),
+                    quantity(Dimension::conductivity, 0., 1e5),
                     "For FEM bodies with Heat conduction = true.");
   prm.declare_entry("Thermal expansion", "0 1/K",
-                    QuantityPattern(Dimension::inverse_temperature, 0., 1e-2),
+                    quantity(Dimension::inverse_temperature, 0., 1e-2),
                     "Linear coefficient: the volume is free of pressure at "
                     "J = exp(3 alpha (T - initial temperature)).");
 }
 
-ThermalParameters ThermalParameters::parse(const dealii::ParameterHandler &prm,
+ThermalParameters ThermalParameters::parse(const Parameters &prm,
                                            const std::string &path,
                                            const EquationOfState &eos)
 {

@@ -1,18 +1,18 @@
 #include "sabot/materials/steinberg_guinan.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 
 namespace sabot
 {
 namespace
 {
-void declare(dealii::ParameterHandler &prm)
+void declare(Parameters &prm)
 {
   const auto entry = [&](const std::string &name, const std::string &value,
                          const Dimension d, const double low, const double high,
                          const std::string &text)
-  { prm.declare_entry(name, value, QuantityPattern(d, low, high), text); };
+  { prm.declare_entry(name, value, quantity(d, low, high), text); };
   entry("Initial yield stress", "0", Dimension::pressure, 0., 1e12, "Y0.");
   entry("Largest yield stress", "0", Dimension::pressure, 0., 1e12,
         "Ymax, at zero pressure and reference temperature.");
@@ -34,8 +34,7 @@ void declare(dealii::ParameterHandler &prm)
   ThermalParameters::declare_parameters(prm, "300 K");
 }
 
-std::unique_ptr<Material> make(dealii::ParameterHandler &prm,
-                               const std::string &path,
+std::unique_ptr<Material> make(Parameters &prm, const std::string &path,
                                const ElasticConstants &elastic,
                                const ElasticBase::Eos &eos)
 {

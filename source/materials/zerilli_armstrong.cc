@@ -1,19 +1,19 @@
 #include "sabot/materials/zerilli_armstrong.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 
 namespace sabot
 {
 namespace
 {
 template <bool bcc>
-void declare(dealii::ParameterHandler &prm)
+void declare(Parameters &prm)
 {
   const auto entry = [&](const std::string &name, const std::string &value,
                          const Dimension d, const double low, const double high,
                          const std::string &text)
-  { prm.declare_entry(name, value, QuantityPattern(d, low, high), text); };
+  { prm.declare_entry(name, value, quantity(d, low, high), text); };
   entry("C0", "0", Dimension::pressure, 0., 1e12,
         "Athermal stress, grain size included.");
   entry(bcc ? "C1" : "C2", "0", Dimension::pressure, 0., 1e12,
@@ -32,9 +32,9 @@ void declare(dealii::ParameterHandler &prm)
 }
 
 template <bool bcc>
-std::unique_ptr<Material>
-make(dealii::ParameterHandler &prm, const std::string &path,
-     const ElasticConstants &elastic, const ElasticBase::Eos &eos)
+std::unique_ptr<Material> make(Parameters &prm, const std::string &path,
+                               const ElasticConstants &elastic,
+                               const ElasticBase::Eos &eos)
 {
   const std::string name =
       bcc ? "Zerilli-Armstrong bcc" : "Zerilli-Armstrong fcc";

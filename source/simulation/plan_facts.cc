@@ -1,5 +1,5 @@
 #include "sabot/simulation/plan_facts.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,23 +50,16 @@ double find_yield_stress(const Material &material)
 
 /** The value of an entry of the present subsection, or @p standard where this
     kind of section has none. */
-std::string get_or(dealii::ParameterHandler &prm, const std::string &entry,
+std::string get_or(Parameters &prm, const std::string &entry,
                    const std::string &standard)
 {
-  try
-  {
-    return prm.get(entry);
-  }
-  catch (const dealii::ExceptionBase &)
-  {
-    return standard;
-  }
+  return prm.is_declared(entry) ? prm.get(entry) : standard;
 }
 } // namespace
 
 std::vector<BodyFacts> find_body_facts(Scene &scene)
 {
-  dealii::ParameterHandler &prm = scene.prm;
+  Parameters &prm = scene.prm;
   std::vector<BodyFacts> facts;
   for (const auto &body : scene.bodies)
   {

@@ -1,4 +1,4 @@
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameter_file.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/zone_verdict.h"
@@ -81,7 +81,7 @@ void add_fragments(const Body &body, ordered_json &result)
 }
 
 /** Every entry that trades speed for accuracy, as it is in force. */
-ordered_json knob_results(const dealii::ParameterHandler &prm)
+ordered_json knob_results(const Parameters &prm)
 {
   static const std::vector<std::string>
       of_bodies = {"Discretization",
@@ -111,9 +111,7 @@ ordered_json knob_results(const dealii::ParameterHandler &prm)
       of_couplings = {"Type", "Stiffness scale", "Damping fraction",
                       "Contact distance", "Tolerance"};
   std::ostringstream text;
-  // Printing does not change the handler, but is not declared so.
-  const_cast<dealii::ParameterHandler &>(prm).print_parameters(
-      text, dealii::ParameterHandler::JSON);
+  print_parameters(prm, "json", text);
   const ordered_json tree = ordered_json::parse(text.str());
   ordered_json knobs = ordered_json::object();
   const auto value = [](const ordered_json &node, const std::string &entry)

@@ -1,5 +1,5 @@
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
@@ -45,8 +45,8 @@ bool has_particles(const Body &body)
 }
 
 /** The entries that contact and self-contact share. */
-void read_contact_options(const dealii::ParameterHandler &prm,
-                          const std::string &path, ContactOptions &options)
+void read_contact_options(const Parameters &prm, const std::string &path,
+                          ContactOptions &options)
 {
   options.friction = get_quantity(prm, "Friction coefficient");
   options.damping_fraction = get_quantity(prm, "Damping fraction");

@@ -1,4 +1,4 @@
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
@@ -11,56 +11,31 @@ namespace sabot
 {
 namespace
 {
-using dealii::ParameterHandler;
-namespace Patterns = dealii::Patterns;
 
-const Patterns::List names(Patterns::Anything(), 0, 1000, ",");
+const Pattern names = name_list();
 
-/** A stress, or the word "yield". */
-class YieldOrStress : public QuantityPattern
+void declare_top(Parameters &prm)
 {
-public:
-  YieldOrStress() : QuantityPattern(Dimension::pressure, 0.) {}
-  bool match(const std::string &text) const override
-  {
-    return text == "yield" || QuantityPattern::match(text);
-  }
-  std::string description(const OutputStyle style) const override
-  {
-    return "yield, or " + QuantityPattern::description(style);
-  }
-  std::unique_ptr<PatternBase> clone() const override
-  {
-    return std::make_unique<YieldOrStress>(*this);
-  }
-};
-
-void declare_top(ParameterHandler &prm)
-{
-  prm.declare_entry("Title", "", Patterns::Anything(),
-                    "What the scene shows; one line.");
-  prm.declare_entry("End time", "0.1 ms",
-                    QuantityPattern(Dimension::time, 1e-12, 1e3),
+  prm.declare_entry("Title", "", any_text(), "What the scene shows; one line.");
+  prm.declare_entry("End time", "0.1 ms", quantity(Dimension::time, 1e-12, 1e3),
                     "Physical time at which the run ends.");
-  prm.declare_entry("Step factor", "0.9",
-                    QuantityPattern(Dimension::none, 0.01, 2.),
+  prm.declare_entry("Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
                     "Step over the least stable step of bodies and "
                     "couplings; above 1 the run is expected to be caught.");
-  prm.declare_entry("Largest step", "1 s",
-                    QuantityPattern(Dimension::time, 1e-15, 1.),
+  prm.declare_entry("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
                     "Upper bound of the step.");
   prm.declare_entry("Energy residual limit", "0.05",
-                    QuantityPattern(Dimension::none, 1e-6, 1e3),
+                    quantity(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
                     "is off by more than this fraction.");
   prm.declare_entry("Checkpoint interval", "0 s",
-                    QuantityPattern(Dimension::time, 0., 1e3),
+                    quantity(Dimension::time, 0., 1e3),
                     "Physical time between checkpoints; 0: not by time. An "
                     "interrupted run always leaves one.");
-  prm.declare_entry("Checkpoint interval in steps", "0", Patterns::Integer(0),
+  prm.declare_entry("Checkpoint interval in steps", "0", integer(0),
                     "Steps between checkpoints; 0: not by steps.");
   prm.declare_entry("Checkpoint interval of wall time", "600 s",
-                    QuantityPattern(Dimension::time, 0., 1e7),
+                    quantity(Dimension::time, 0., 1e7),
                     "Wall-clock time between checkpoints; 0: not by wall "
                     "time.");
   prm.declare_entry("List of bodies", "", names,
@@ -71,26 +46,26 @@ void declare_top(ParameterHandler &prm)
                     "Names of the quantities of interest in result.json.");
 }
 
-void declare_shape(ParameterHandler &prm, const std::string &geometry)
+void declare_shape(Parameters &prm, const std::string &geometry)
 {
-  const QuantityPattern length(Dimension::length, 1e-9, 1e3);
+  const Pattern length = quantity(Dimension::length, 1e-9, 1e3);
   if (geometry == "box")
   {
     prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
-                      QuantityPattern(Dimension::length, 3, 3, 1e-9, 1e3),
+                      quantities(Dimension::length, 3, 3, 1e-9, 1e3),
                       "Edge lengths of the box.");
     return;
   }
   if (geometry == "file")
   {
-    prm.declare_entry("Mesh file", "", Patterns::Anything(),
+    prm.declare_entry("Mesh file", "", any_text(),
                       "Hexahedra from gmsh (.msh), Abaqus (.inp) or VTK "
                       "(.vtk), looked up beside the parameter file; its origin "
                       "is put at the centre. Faces are named by the file's "
                       "boundary ids.");
     prm.declare_entry("Mesh unit", "1 m", length,
                       "Length of a unit of the file's coordinates.");
-    prm.declare_entry("Mesh material id", "-1", Patterns::Integer(-1),
+    prm.declare_entry("Mesh material id", "-1", integer(-1),
                       "Only cells with this material id of the file; -1: all.");
     return;
   }
@@ -102,27 +77,24 @@ void declare_shape(ParameterHandler &prm, const std::string &geometry)
   {
     prm.declare_entry("Length", "1 mm", length,
                       "Length of the shaft, without the nose.");
-    prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z|-x|-y|-z"),
+    prm.declare_entry("Axis", "z", one_of("x|y|z|-x|-y|-z"),
                       "Where the nose points.");
-    prm.declare_entry("Nose", "ogive",
-                      Patterns::Selection("ogive|conical|spherical"),
+    prm.declare_entry("Nose", "ogive", one_of("ogive|conical|spherical"),
                       "Shape of the nose; the ogive is tangent to the shaft.");
     prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
     return;
   }
   prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
-  prm.declare_entry("Axis", "z", Patterns::Selection("x|y|z"),
+  prm.declare_entry("Axis", "z", one_of("x|y|z"),
                     "Direction of the cylinder's axis.");
-  prm.declare_entry("Core radius", "0 m",
-                    QuantityPattern(Dimension::length, 0., 1e3),
+  prm.declare_entry("Core radius", "0 m", quantity(Dimension::length, 0., 1e3),
                     "Radius of the middle part that has cells of the cell "
                     "size; 0: 0.55 of the radius.");
-  prm.declare_entry("Growth ratio", "1",
-                    QuantityPattern(Dimension::none, 1., 3.),
+  prm.declare_entry("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
                     "Thickness of one ring of cells over the last, outwards.");
   prm.declare_entry("Coarsest cell size", "1 km", length,
                     "Rings grow up to this thickness.");
-  prm.declare_entry("Sector", "full", Patterns::Selection("full|half|quarter"),
+  prm.declare_entry("Sector", "full", one_of("full|half|quarter"),
                     "Part of the cylinder that is modelled: half keeps the "
                     "positive side of the axis that follows the cylinder's "
                     "(x after z), quarter that of the other one, too. The cut "
@@ -140,31 +112,30 @@ std::string face_names(const std::string &geometry)
                                     : "the boundary ids of the file";
 }
 
-void declare_body(ParameterHandler &prm, const std::string &discretization,
+void declare_body(Parameters &prm, const std::string &discretization,
                   const std::string &geometry)
 {
-  prm.declare_entry("Discretization", "FEM",
-                    Patterns::Selection("FEM|SPG|rigid"),
+  prm.declare_entry("Discretization", "FEM", one_of("FEM|SPG|rigid"),
                     "FEM: hexahedra; SPG: smoothed-particle-Galerkin "
                     "particles; rigid: hexahedra that do not deform.");
   prm.declare_entry("Geometry", "box",
-                    Patterns::Selection("box|cylinder|sphere|projectile|file"),
+                    one_of("box|cylinder|sphere|projectile|file"),
                     "Shape of the body; projectile: a cylinder with a conical "
                     "or ogival nose; file: a mesh of hexahedra. The entries of "
                     "the shapes are the same for FEM, SPG and rigid bodies.");
-  prm.declare_entry("Material", "", Patterns::Anything(),
+  prm.declare_entry("Material", "", any_text(),
                     "Name of a subsection of Materials.");
-  const QuantityPattern vector3(Dimension::length, 3, 3, -1e3, 1e3);
+  const Pattern vector3 = quantities(Dimension::length, 3, 3, -1e3, 1e3);
   prm.declare_entry("Centre", "0 m, 0 m, 0 m", vector3,
                     "Position of the centre.");
   prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
-                    QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
+                    quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
   declare_shape(prm, geometry);
   if (discretization == "rigid")
   {
     prm.declare_entry("Cell size", "1 mm",
-                      QuantityPattern(Dimension::length, 1e-9, 1e2),
+                      quantity(Dimension::length, 1e-9, 1e2),
                       "Edge of the cells, whose outer faces are the surface.");
     RigidOptions::declare_parameters(prm);
     return;
@@ -177,12 +148,12 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
   if (discretization == "SPG")
   {
     prm.declare_entry("Nodal spacing", "1 mm",
-                      QuantityPattern(Dimension::length, 1, 3, 1e-9, 1e2),
+                      quantities(Dimension::length, 1, 3, 1e-9, 1e2),
                       "Distance of neighbouring particles; of a box the "
                       "nearest value that divides each edge, one for all or "
                       "three, one per axis. In other shapes particles are the "
                       "nodes of hexahedra with cells of this size.");
-    prm.declare_entry("Carve from", "", Patterns::Anything(),
+    prm.declare_entry("Carve from", "", any_text(),
                       "A FEM body whose cells inside this box or cylinder give "
                       "way to the particles. A box in a box has a lattice of "
                       "its own, around which the body is meshed; else the "
@@ -197,27 +168,27 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
   else
   {
     prm.declare_entry("Cell size", "1 mm",
-                      QuantityPattern(Dimension::length, 1e-9, 1e2),
+                      quantity(Dimension::length, 1e-9, 1e2),
                       "Edge of the cells; next to a carved zone, where the "
                       "mesh is graded.");
     if (geometry == "box")
     {
       prm.declare_entry("Coarsest cell size", "1 km",
-                        QuantityPattern(Dimension::length, 1e-9, 1e3),
+                        quantity(Dimension::length, 1e-9, 1e3),
                         "Where a zone is carved from the body or refined, "
                         "cells grow away from it up to this size.");
       prm.declare_entry("Growth ratio", "1.15",
-                        QuantityPattern(Dimension::none, 1., 3.),
+                        quantity(Dimension::none, 1., 3.),
                         "Size of one cell over the last, away from the zone.");
     }
     if (geometry == "box")
     {
       prm.declare_entry("Refined zone size", "0 mm, 0 mm, 0 mm",
-                        QuantityPattern(Dimension::length, 3, 3, 0., 1e3),
+                        quantities(Dimension::length, 3, 3, 0., 1e3),
                         "Edge lengths of the part of the box that has cells of "
                         "the cell size; 0: all of it.");
       prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
-                        QuantityPattern(Dimension::length, 3, 3, -1e3, 1e3),
+                        quantities(Dimension::length, 3, 3, -1e3, 1e3),
                         "Position of its centre.");
     }
     prm.declare_entry("Clamped faces", "", names,
@@ -226,7 +197,7 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
                       "Faces whose nodes move with the prescribed velocity; "
                       "the work done on them counts as external.");
     prm.declare_entry("Prescribed velocity", "0 m/s, 0 m/s, 0 m/s",
-                      QuantityPattern(Dimension::velocity, 3, 3, -1e5, 1e5),
+                      quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                       "Constant velocity of the driven faces.");
     prm.declare_entry("Prescribed components", "x, y, z", names,
                       "Components of the prescribed velocity that count; the "
@@ -235,84 +206,79 @@ void declare_body(ParameterHandler &prm, const std::string &discretization,
   }
 }
 
-void declare_coupling(ParameterHandler &prm, const std::string &type)
+void declare_coupling(Parameters &prm, const std::string &type)
 {
-  prm.declare_entry("Type", "contact",
-                    Patterns::Selection("tie|contact|self-contact"),
+  prm.declare_entry("Type", "contact", one_of("tie|contact|self-contact"),
                     "tie: nodes of one body move with the surface of another; "
                     "contact: nodes against the faces of FEM bodies and the "
                     "surfaces of particles, with friction; self-contact: "
                     "debris of SPG bodies, surfaces of FEM bodies.");
   if (type == "tie")
   {
-    prm.declare_entry("Follower", "", Patterns::Anything(),
+    prm.declare_entry("Follower", "", any_text(),
                       "Body whose nodes on the leader's surface are tied.");
-    prm.declare_entry("Leader", "", Patterns::Anything(), "A FEM body.");
-    prm.declare_entry("Tolerance", "0.05",
-                      QuantityPattern(Dimension::none, 1e-6, 1.),
+    prm.declare_entry("Leader", "", any_text(), "A FEM body.");
+    prm.declare_entry("Tolerance", "0.05", quantity(Dimension::none, 1e-6, 1.),
                       "Distance from the surface, in follower spacings, up to "
                       "which a node is tied.");
     return;
   }
   prm.declare_entry("Bodies", "", names, "Bodies that may touch each other.");
   prm.declare_entry("Friction coefficient", "0",
-                    QuantityPattern(Dimension::none, 0., 2.),
-                    "Coulomb friction.");
+                    quantity(Dimension::none, 0., 2.), "Coulomb friction.");
   prm.declare_entry("Damping fraction", "0.1",
-                    QuantityPattern(Dimension::none, 0., 1.),
+                    quantity(Dimension::none, 0., 1.),
                     "Of critical, while two nodes approach.");
   prm.declare_entry("Stiffness scale", "1",
-                    QuantityPattern(Dimension::none, 1e-3, 10.),
+                    quantity(Dimension::none, 1e-3, 10.),
                     "Penalty stiffness over bulk modulus times spacing.");
   prm.declare_entry("Dynamic friction coefficient", "-1",
-                    QuantityPattern(Dimension::none, -1., 2.),
+                    quantity(Dimension::none, -1., 2.),
                     "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
                     "mu_d) exp(-decay speed), mu_s the friction coefficient; "
                     "-1: as at rest.");
-  prm.declare_entry("Friction decay", "0", QuantityPattern(Dimension::none, 0.),
+  prm.declare_entry("Friction decay", "0", quantity(Dimension::none, 0.),
                     "Decay of friction with the speed of sliding, in s/m.");
-  prm.declare_entry("Shear strength", "0", YieldOrStress(),
+  prm.declare_entry("Shear strength", "0",
+                    word_or("yield", quantity(Dimension::pressure, 0.)),
                     "Friction per area stays below it; yield: the present "
                     "flow stress of the softer side, where it is touched, over "
                     "sqrt(3). 0: no limit.");
   if (type == "self-contact")
     prm.declare_entry("Contact distance", "0.9",
-                      QuantityPattern(Dimension::none, 0.1, 1.),
+                      quantity(Dimension::none, 0.1, 1.),
                       "Distance over spacing below which debris repels, unless "
                       "it was met closer.");
 }
 
-void declare_output(ParameterHandler &prm)
+void declare_output(Parameters &prm)
 {
-  prm.declare_entry("Type", "VTU", Patterns::Selection("VTU|history"),
+  prm.declare_entry("Type", "VTU", one_of("VTU|history"),
                     "VTU: fields of all bodies for ParaView; history: averages "
                     "and energies in history.h5.");
-  prm.declare_entry("Interval", "5 us",
-                    QuantityPattern(Dimension::time, 1e-15, 1e3),
+  prm.declare_entry("Interval", "5 us", quantity(Dimension::time, 1e-15, 1e3),
                     "Time between two writes; the end is always written.");
 }
 
-void declare_quantity(ParameterHandler &prm)
+void declare_quantity(Parameters &prm)
 {
   prm.declare_entry(
-      "Type", "velocity",
-      Patterns::Selection("velocity|penetration depth|length|radius"),
+      "Type", "velocity", one_of("velocity|penetration depth|length|radius"),
       "velocity: of the body's centre of mass along the direction; "
       "penetration depth: how far the body reaches beyond the origin along "
       "the direction; length, radius: extent along the direction, half extent "
       "across it, of the whole where planes of symmetry cut the body.");
-  prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
+  prm.declare_entry("Body", "", any_text(), "Name of the body.");
   prm.declare_entry("Direction", "0, 0, 1",
-                    QuantityPattern(Dimension::none, 3, 3, -1e3, 1e3),
+                    quantities(Dimension::none, 3, 3, -1e3, 1e3),
                     "A vector along an axis; its length does not matter.");
-  prm.declare_entry("Origin", "0 m",
-                    QuantityPattern(Dimension::length, -1e3, 1e3),
+  prm.declare_entry("Origin", "0 m", quantity(Dimension::length, -1e3, 1e3),
                     "Coordinate along the direction from which a penetration "
                     "depth counts.");
 }
 } // namespace
 
-void Scene::declare(ParameterHandler &prm, const ParameterFile *file)
+void Scene::declare(Parameters &prm, const ParameterFile *file)
 {
   declare_top(prm);
   const auto each = [&](const std::string &section,

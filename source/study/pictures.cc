@@ -1,6 +1,6 @@
 #include "sabot/study/pictures.h"
 
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/study/process_pool.h"
 
@@ -16,20 +16,18 @@ namespace
 namespace fs = std::filesystem;
 
 /** Values of a comma-separated list of quantities [SI]. */
-std::vector<double> quantities(const std::string &option,
-                               const std::string &text,
-                               const Dimension dimension,
-                               const unsigned int n_min,
-                               const unsigned int n_max)
+std::vector<double> read_option(const std::string &option,
+                                const std::string &text,
+                                const Dimension dimension,
+                                const unsigned int n_min,
+                                const unsigned int n_max)
 {
-  const QuantityPattern pattern(dimension, n_min, n_max,
-                                -QuantityPattern::infinity,
-                                QuantityPattern::infinity);
+  const Pattern pattern = quantities(dimension, n_min, n_max);
   if (!pattern.match(text))
     throw InputError("", option + ": \"" + text + "\" should be " +
                              pattern.description());
-  dealii::ParameterHandler prm;
-  prm.declare_entry("values", text, pattern);
+  Parameters prm;
+  prm.declare_entry("values", text, pattern, "");
   return get_quantities(prm, "values");
 }
 
@@ -68,18 +66,18 @@ nlohmann::ordered_json section_of(const PictureArguments &arguments)
   constexpr unsigned int most_panels = 12;
   if (!arguments.times.empty())
     section["times"] =
-        quantities("--time", arguments.times, Dimension::time, 1, most_panels);
+        read_option("--time", arguments.times, Dimension::time, 1, most_panels);
   if (!arguments.normal.empty())
     section["normal"] = arguments.normal;
   if (!arguments.position.empty())
     section["position"] =
-        quantities("--at", arguments.position, Dimension::length, 1, 1)[0];
+        read_option("--at", arguments.position, Dimension::length, 1, 1)[0];
   if (!arguments.range.empty())
     section["range"] =
-        quantities("--range", arguments.range, Dimension::none, 2, 2);
+        read_option("--range", arguments.range, Dimension::none, 2, 2);
   if (!arguments.window.empty())
     section["window"] =
-        quantities("--window", arguments.window, Dimension::length, 4, 4);
+        read_option("--window", arguments.window, Dimension::length, 4, 4);
   for (const char *const pair : {"range", "window"})
     if (section.contains(pair))
       for (std::size_t i = 0; i + 1 < section[pair].size(); i += 2)

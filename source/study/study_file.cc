@@ -3,11 +3,9 @@
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
 #include "sabot/base/parameter_file.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
 #include <sstream>
@@ -16,7 +14,6 @@ namespace sabot
 {
 namespace
 {
-namespace Patterns = dealii::Patterns;
 
 std::string trim(const std::string &text)
 {
@@ -39,15 +36,8 @@ std::vector<std::string> split(const std::string &text, const char separator)
 double number_of(const std::string &label)
 {
   const std::string first = trim(label.substr(0, label.find(',')));
-  for (int d = 0; d <= static_cast<int>(Dimension::angle); ++d)
-  {
-    const QuantityPattern pattern(static_cast<Dimension>(d));
-    if (!pattern.match(first))
-      continue;
-    dealii::ParameterHandler prm;
-    prm.declare_entry("value", first, pattern);
-    return get_quantity(prm, "value");
-  }
+  if (const auto value = read_quantity(first))
+    return *value;
   return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -59,8 +49,8 @@ std::string beside(const std::string &file, const std::string &name)
              : file.substr(0, slash + 1) + name;
 }
 
-StudyParameter read_parameter(const dealii::ParameterHandler &prm,
-                              const std::string &name, const std::string &file)
+StudyParameter read_parameter(const Parameters &prm, const std::string &name,
+                              const std::string &file)
 {
   const std::string path = "Parameters/" + name;
   StudyParameter parameter;
@@ -113,50 +103,48 @@ StudyParameter read_parameter(const dealii::ParameterHandler &prm,
 }
 } // namespace
 
-void StudyFile::declare(dealii::ParameterHandler &prm,
+void StudyFile::declare(Parameters &prm,
                         const std::vector<std::string> &parameter_names,
                         const std::vector<std::string> &quantity_names)
 {
-  prm.declare_entry("Title", "", Patterns::Anything(),
-                    "What the study shows; one line.");
-  prm.declare_entry("Scene", "", Patterns::Anything(),
+  prm.declare_entry("Title", "", any_text(), "What the study shows; one line.");
+  prm.declare_entry("Scene", "", any_text(),
                     "The scene that is varied, beside the study's file.");
-  prm.declare_entry("Fixed entries", "", Patterns::Anything(),
+  prm.declare_entry("Fixed entries", "", any_text(),
                     "Entries set in every run: \"Section/Name=value\", "
                     "separated by semicolons.");
   prm.declare_entry("Combination", "one at a time",
-                    Patterns::Selection("one at a time|grid"),
+                    one_of("one at a time|grid"),
                     "one at a time: each value with the first values of all "
                     "other parameters; grid: every combination.");
-  prm.declare_entry("Processes", "1", Patterns::Integer(1, 1024),
+  prm.declare_entry("Processes", "1", integer(1, 1024),
                     "Runs at the same time.");
-  prm.declare_entry("Ranks per run", "1", Patterns::Integer(1, 4096),
+  prm.declare_entry("Ranks per run", "1", integer(1, 4096),
                     "MPI ranks of each run.");
-  prm.declare_entry("Pictures", "true", Patterns::Bool(),
+  prm.declare_entry("Pictures", "true", boolean(),
                     "Whether the report shows a section through each run that "
                     "has fields (outputs of type VTU).");
-  prm.declare_entry("Picture field", "", Patterns::Anything(),
+  prm.declare_entry("Picture field", "", any_text(),
                     "Field that colours the sections; none: effective plastic "
                     "strain, or velocity where nothing can yield.");
-  prm.declare_entry("Picture times", "", Patterns::Anything(),
+  prm.declare_entry("Picture times", "", any_text(),
                     "Times of the sections, separated by commas; none: the end "
                     "of the run.");
   prm.enter_subsection("Parameters");
   for (const std::string &name : parameter_names)
   {
     prm.enter_subsection(name);
-    prm.declare_entry("Entries", "", Patterns::Anything(),
+    prm.declare_entry("Entries", "", any_text(),
                       "Paths of the scene's entries that take the values, "
                       "separated by semicolons; \"Scene\" stands for the "
                       "scene's file.");
-    prm.declare_entry("Values", "", Patterns::Anything(),
+    prm.declare_entry("Values", "", any_text(),
                       "Values, separated by semicolons, the base first; a "
                       "vertical bar separates those of several entries.");
-    prm.declare_entry("Labels", "", Patterns::Anything(),
+    prm.declare_entry("Labels", "", any_text(),
                       "Names of the values in tables and charts, separated by "
                       "semicolons; none: the values themselves.");
-    prm.declare_entry("Role", "knob",
-                      Patterns::Selection("knob|spacing|physics"),
+    prm.declare_entry("Role", "knob", one_of("knob|spacing|physics"),
                       "knob: trades speed for accuracy; spacing: sizes over "
                       "which convergence is judged; physics: changes the "
                       "problem.");
@@ -167,11 +155,11 @@ void StudyFile::declare(dealii::ParameterHandler &prm,
   for (const std::string &name : quantity_names)
   {
     prm.enter_subsection(name);
-    prm.declare_entry("Measured value", "nan", Patterns::Anything(),
+    prm.declare_entry("Measured value", "nan", any_text(),
                       "Of the experiment, with unit; nan: none.");
-    prm.declare_entry("Source", "", Patterns::Anything(),
+    prm.declare_entry("Source", "", any_text(),
                       "Where the measured value comes from.");
-    prm.declare_entry("Over", "", Patterns::Anything(),
+    prm.declare_entry("Over", "", any_text(),
                       "Another quantity of the scene: the histories are also "
                       "drawn over it, as velocity over depth.");
     prm.leave_subsection();
@@ -205,7 +193,7 @@ void StudyFile::read(const ParameterFile &file)
   const std::vector<std::string> names = file.subsections("Parameters"),
                                  quantity_names =
                                      file.subsections("Quantities");
-  dealii::ParameterHandler prm;
+  Parameters prm;
   declare(prm, names, quantity_names);
   file.parse_into(prm);
   title = prm.get("Title");
@@ -303,7 +291,7 @@ void StudyFile::list_runs()
       }
     // The expanded parameters, as the run itself will write them.
     const ParameterFile scene_file(run.scene, run.overrides);
-    dealii::ParameterHandler prm;
+    Parameters prm;
     Scene::declare(prm, &scene_file);
     scene_file.parse_into(prm);
     std::ostringstream text;

@@ -1,7 +1,7 @@
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/parameter_file.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(ExactSum, keeps_invalid_terms_visible)
 
 TEST(Quantity, units_dimensions_and_ranges)
 {
-  const QuantityPattern length(Dimension::length, 1e-6, 1.);
+  const Pattern length = quantity(Dimension::length, 1e-6, 1.);
   EXPECT_TRUE(length.match("12.7 mm"));
   EXPECT_TRUE(length.match("0.0127"));
   EXPECT_FALSE(length.match("12.7 kg"));
@@ -60,15 +60,15 @@ TEST(Quantity, units_dimensions_and_ranges)
   EXPECT_FALSE(length.match("nan"));
   EXPECT_FALSE(length.match("inf"));
   EXPECT_FALSE(length.match("1 mm, 2 mm"));
-  const QuantityPattern three(Dimension::length, 3, 3, 0., 1.);
+  const Pattern three = quantities(Dimension::length, 3, 3, 0., 1.);
   EXPECT_TRUE(three.match("1 mm, 2 mm, 3 cm"));
   EXPECT_FALSE(three.match("1 mm, 2 mm"));
   EXPECT_FALSE(three.match("1 mm, 2 mm, "));
 
-  dealii::ParameterHandler prm;
-  prm.declare_entry("Stress", "324 MPa", QuantityPattern(Dimension::pressure));
+  Parameters prm;
+  prm.declare_entry("Stress", "324 MPa", quantity(Dimension::pressure));
   prm.declare_entry("Size", "1 mm, 2 cm",
-                    QuantityPattern(Dimension::length, 2, 2, 0., 1.));
+                    quantities(Dimension::length, 2, 2, 0., 1.));
   EXPECT_DOUBLE_EQ(get_quantity(prm, "Stress"), 324e6);
   EXPECT_DOUBLE_EQ(get_quantities(prm, "Size")[1], 0.02);
 }
@@ -86,11 +86,11 @@ protected:
   {
     char name[] = "/tmp/sabot-test-XXXXXX";
     folder = mkdtemp(name);
-    prm.declare_entry("Title", "", dealii::Patterns::Anything());
+    prm.declare_entry("Title", "", any_text());
     prm.enter_subsection("Bodies");
     prm.enter_subsection("plate");
-    prm.declare_entry("Cell size", "1 mm", QuantityPattern(Dimension::length));
-    prm.declare_entry("Kind", "FEM", dealii::Patterns::Selection("FEM|SPG"));
+    prm.declare_entry("Cell size", "1 mm", quantity(Dimension::length));
+    prm.declare_entry("Kind", "FEM", one_of("FEM|SPG"));
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -116,7 +116,7 @@ protected:
     return "";
   }
   std::string folder;
-  dealii::ParameterHandler prm;
+  Parameters prm;
 };
 
 #define EXPECT_CONTAINS(text, part)                                            \

@@ -1,4 +1,4 @@
-#include "sabot/verification/world.h"
+#include "verification/world.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sabot/verification/balance.h"
+#include "verification/balance.h"
 
 #include <gtest/gtest.h>
 

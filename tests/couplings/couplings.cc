@@ -1,4 +1,4 @@
-#include "sabot/verification/world.h"
+#include "verification/world.h"
 
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/self_contact.h"

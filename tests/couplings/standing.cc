@@ -1,6 +1,6 @@
 #include "sabot/couplings/mirror_images.h"
 #include "sabot/couplings/particle_standing.h"
-#include "sabot/verification/world.h"
+#include "verification/world.h"
 
 #include <gtest/gtest.h>
 

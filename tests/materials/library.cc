@@ -39,7 +39,7 @@ Loaded load(const std::string &file,
             const std::vector<std::string> &overrides = {})
 {
   const ParameterFile parsed(file, overrides);
-  dealii::ParameterHandler prm;
+  Parameters prm;
   Scene::declare(prm, &parsed);
   parsed.parse_into(prm);
   const std::string name = parsed.subsections("Materials").at(0);

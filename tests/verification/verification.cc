@@ -1,5 +1,5 @@
 // Every problem of the label "quick" is a test.
-#include "sabot/verification/problem.h"
+#include "verification/problem.h"
 
 #include <gtest/gtest.h>
 

@@ -3,16 +3,12 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/nearest_name.h"
+#include "sabot/base/parameters.h"
 
 #include <iosfwd>
 #include <map>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-class ParameterHandler;
-}
 
 namespace sabot
 {
@@ -41,7 +37,7 @@ public:
   std::string origin(const std::string &path) const;
 
   /** Set what the file sets. Every entry must be declared in @p prm. */
-  void parse_into(dealii::ParameterHandler &prm) const;
+  void parse_into(Parameters &prm) const;
 
   const std::string file_name;
 
@@ -62,10 +58,15 @@ private:
 };
 
 /** The declared entries as markdown: name, default, meaning, allowed values. */
-void print_manual(const dealii::ParameterHandler &prm, std::ostream &out);
+void print_manual(const Parameters &prm, std::ostream &out);
+
+/** The declared entries in a @p format that deal.II offers: "prm", "json" or
+    "xml"; anything else: its own description. */
+void print_parameters(const Parameters &prm, const std::string &format,
+                      std::ostream &out);
 
 /** All parameters with their present values, as a parameter file. */
-void print_expanded(const dealii::ParameterHandler &prm, std::ostream &out);
+void print_expanded(const Parameters &prm, std::ostream &out);
 } // namespace sabot
 
 #endif

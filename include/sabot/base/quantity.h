@@ -1,6 +1,8 @@
 #ifndef sabot_base_quantity_h
 #define sabot_base_quantity_h
 
+#include "sabot/base/dimension.h"
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -8,26 +10,6 @@
 
 namespace sabot
 {
-/** Dimensions of the quantities in scene files. */
-enum class Dimension
-{
-  none,
-  length,
-  time,
-  velocity,
-  mass,
-  density,
-  pressure,
-  temperature,
-  specific_heat,
-  strain_rate,
-  energy,
-  angle,
-  inverse_temperature,
-  inverse_pressure,
-  conductivity
-};
-
 /**
  * Pattern of a number with an optional unit ("12.7 mm", "324 MPa", "1e-4"); a
  * number alone is in SI units. Refuses other dimensions and values outside
@@ -54,14 +36,11 @@ private:
   double min, max;
 };
 
-/** Value in SI units of the current subsection's entry @p name, declared with
-    a QuantityPattern. */
-double get_quantity(const dealii::ParameterHandler &prm,
-                    const std::string &name);
-std::vector<double> get_quantities(const dealii::ParameterHandler &prm,
-                                   const std::string &name);
-/** Entries of a comma-separated list of names, trimmed, empty ones dropped. */
-std::vector<std::string> split_names(const std::string &text);
+/** SI value of a number with an optional unit; throws std::invalid_argument for
+    any other text. */
+double to_si(const std::string &text);
+/** Parts between commas, trimmed. */
+std::vector<std::string> split_at_commas(const std::string &text);
 } // namespace sabot
 
 #endif

@@ -23,10 +23,9 @@ struct ElasticConstants
   {
     return young_modulus / (2. * (1. + poisson_ratio));
   }
-  static void declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(Parameters &prm);
   /** Also checks that the sound speed is plausible, 100 to 20 000 m/s. */
-  static ElasticConstants parse(const dealii::ParameterHandler &prm,
-                                const std::string &path);
+  static ElasticConstants parse(const Parameters &prm, const std::string &path);
 };
 
 /** A law for the deviator, composed with an equation of state. */
@@ -73,10 +72,10 @@ struct MaterialModel
 {
   std::string name, description;
   /** Empty for a law without entries of its own. */
-  std::function<void(dealii::ParameterHandler &)> declare;
-  std::function<std::unique_ptr<Material>(
-      dealii::ParameterHandler &, const std::string &path,
-      const ElasticConstants &, const ElasticBase::Eos &)>
+  std::function<void(Parameters &)> declare;
+  std::function<std::unique_ptr<Material>(Parameters &, const std::string &path,
+                                          const ElasticConstants &,
+                                          const ElasticBase::Eos &)>
       make;
 };
 std::vector<MaterialModel> &material_models();

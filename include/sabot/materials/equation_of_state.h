@@ -35,11 +35,10 @@ public:
   virtual void finish(const MaterialBatch &batch, const Start &start,
                       const double shear_modulus) const = 0;
 
-  static void declare_parameters(dealii::ParameterHandler &prm,
-                                 const std::string &selected);
+  static void declare_parameters(Parameters &prm, const std::string &selected);
   /** Messages about values that contradict @p elastic go to @p warnings. */
   static std::shared_ptr<const EquationOfState>
-  make(dealii::ParameterHandler &prm, const std::string &path,
+  make(Parameters &prm, const std::string &path,
        const ElasticConstants &elastic, std::vector<std::string> &warnings);
   static std::vector<std::string> names();
 };

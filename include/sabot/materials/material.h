@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace dealii
+namespace sabot
 {
-class ParameterHandler;
+class Parameters;
 }
 
 namespace sabot
@@ -99,8 +99,7 @@ public:
       "Equation of state" the pressure, only their subsections are declared.
       Names that are empty or unknown declare all, as the manual does. @p path
       is where they stand, for messages. */
-  static void declare_parameters(dealii::ParameterHandler &prm,
-                                 const std::string &model = "",
+  static void declare_parameters(Parameters &prm, const std::string &model = "",
                                  const std::string &equation_of_state = "");
   /** Throw InputError for the first of @p subsections that @p model and
       @p equation_of_state do not read. */
@@ -108,7 +107,7 @@ public:
                                 const std::vector<std::string> &subsections,
                                 const std::string &model,
                                 const std::string &equation_of_state);
-  static std::unique_ptr<Material> make(dealii::ParameterHandler &prm,
+  static std::unique_ptr<Material> make(Parameters &prm,
                                         const std::string &path);
 };
 } // namespace sabot

@@ -17,12 +17,11 @@ struct ThermalParameters
   double conductivity = 0.;          // [W/m/K], for bodies that conduct
   double expansion = 0.;             // linear, [1/K]; p += 3 K alpha (T - T_0)
 
-  static void declare_parameters(dealii::ParameterHandler &prm,
+  static void declare_parameters(Parameters &prm,
                                  const std::string &initial_temperature);
   /** @p path of the law; refuses expansion beside an equation of state that
       has a thermal pressure of its own. */
-  static ThermalParameters parse(const dealii::ParameterHandler &prm,
-                                 const std::string &path,
+  static ThermalParameters parse(const Parameters &prm, const std::string &path,
                                  const EquationOfState &eos);
 };
 

@@ -7,7 +7,7 @@
 #include "sabot/geometry/carving.h"
 #include "sabot/materials/material.h"
 
-#include <deal.II/base/parameter_handler.h>
+#include "sabot/base/parameters.h"
 
 #include <map>
 #include <memory>
@@ -95,12 +95,12 @@ public:
       must be constant. */
   bool is_free = true;
 
-  dealii::ParameterHandler prm;
+  Parameters prm;
   int body_index(const std::string &path, const std::string &body_name) const;
   std::vector<Body *> body_pointers() const;
 
   /** Declare the entries that the file's lists call for. */
-  static void declare(dealii::ParameterHandler &prm, const ParameterFile *file);
+  static void declare(Parameters &prm, const ParameterFile *file);
 
 private:
   struct Carving;

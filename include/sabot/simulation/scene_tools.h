@@ -3,7 +3,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/nearest_name.h"
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/geometry/carving.h"
 #include "sabot/simulation/scene.h"
 
@@ -12,33 +12,12 @@
 
 namespace sabot
 {
-inline std::array<double, 3> get_vector(const dealii::ParameterHandler &prm,
+inline std::array<double, 3> get_vector(const Parameters &prm,
                                         const std::string &entry)
 {
   const std::vector<double> v = get_quantities(prm, entry);
   return {{v[0], v[1], v[2]}};
 }
-
-/** Enters Section/name of a ParameterHandler while it lives. */
-class Entered
-{
-public:
-  Entered(dealii::ParameterHandler &prm, const std::string &section,
-          const std::string &name)
-      : prm(prm)
-  {
-    prm.enter_subsection(section);
-    prm.enter_subsection(name);
-  }
-  ~Entered()
-  {
-    prm.leave_subsection();
-    prm.leave_subsection();
-  }
-
-private:
-  dealii::ParameterHandler &prm;
-};
 
 [[noreturn]] inline void unknown_name(const std::string &path,
                                       const std::string &what,

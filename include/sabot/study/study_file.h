@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace dealii
+namespace sabot
 {
-class ParameterHandler;
+class Parameters;
 }
 
 namespace sabot
@@ -70,7 +70,7 @@ struct StudyFile
   std::vector<StudyQuantity> quantities;
   std::vector<StudyRun> runs; // the first is the base
 
-  static void declare(dealii::ParameterHandler &prm,
+  static void declare(Parameters &prm,
                       const std::vector<std::string> &parameter_names,
                       const std::vector<std::string> &quantity_names);
 

@@ -1,64 +1,57 @@
 #include "sabot/bodies/fem/fem_body.h"
 
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/bodies/body_report.h"
 
 #include <algorithm>
 
 namespace sabot
 {
-void FemOptions::declare_parameters(dealii::ParameterHandler &prm)
+void FemOptions::declare_parameters(Parameters &prm)
 {
-  prm.declare_entry("Integration", "one point",
-                    dealii::Patterns::Selection("one point|B-bar"),
+  prm.declare_entry("Integration", "one point", one_of("one point|B-bar"),
                     "one point: fast, with hourglass control; B-bar: eight "
                     "points with the mean volumetric strain, no hourglass "
                     "modes, no volumetric locking, several times the cost.");
-  prm.declare_entry("Hourglass control", "viscous",
-                    dealii::Patterns::Selection("viscous|stiffness"),
+  prm.declare_entry("Hourglass control", "viscous", one_of("viscous|stiffness"),
                     "Flanagan-Belytschko; viscous for large plastic flow, "
                     "stiffness for elastic bodies.");
   prm.declare_entry("Hourglass coefficient", "0.1",
-                    QuantityPattern(Dimension::none, 0., 1.),
-                    "Usually 0.03 to 0.15.");
-  prm.declare_entry("Heat conduction", "false", dealii::Patterns::Bool(),
+                    quantity(Dimension::none, 0., 1.), "Usually 0.03 to 0.15.");
+  prm.declare_entry("Heat conduction", "false", boolean(),
                     "Implicit conduction inside the body, faces insulated. "
                     "Needs a law with temperature and conductivity.");
   prm.declare_entry("Conduction interval", "1 us",
-                    QuantityPattern(Dimension::time, 0., 1e3),
+                    quantity(Dimension::time, 0., 1e3),
                     "Time between conduction steps.");
   prm.declare_entry(
-      "Objective rate", "Jaumann",
-      dealii::Patterns::Selection("Jaumann|Green-Naghdi"),
+      "Objective rate", "Jaumann", one_of("Jaumann|Green-Naghdi"),
       "Rate of the stress: with the spin of the velocity gradient, or with "
       "that of the rotation R of F = R U, which does not oscillate in large "
       "elastic shear.");
   prm.declare_entry("Linear bulk viscosity", "0.06",
-                    QuantityPattern(Dimension::none, 0., 1.),
+                    quantity(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
   prm.declare_entry("Quadratic bulk viscosity", "1.5",
-                    QuantityPattern(Dimension::none, 0., 10.),
+                    quantity(Dimension::none, 0., 10.),
                     "Coefficient of rho h^2 (div v)^2 in compression.");
   prm.declare_entry("Erosion plastic strain", "1e10",
-                    QuantityPattern(Dimension::none, 0.),
+                    quantity(Dimension::none, 0.),
                     "A cell is eroded when its effective plastic strain "
                     "exceeds this. 1e10: never.");
-  prm.declare_entry("Erosion damage", "1e10",
-                    QuantityPattern(Dimension::none, 0.),
+  prm.declare_entry("Erosion damage", "1e10", quantity(Dimension::none, 0.),
                     "A cell is eroded when the material's damage reaches this "
                     "(1: fully damaged). 1e10: never.");
-  prm.declare_entry("Erosion step", "0 s",
-                    QuantityPattern(Dimension::time, 0., 1.),
+  prm.declare_entry("Erosion step", "0 s", quantity(Dimension::time, 0., 1.),
                     "A cell is eroded when its own stable step falls below "
                     "this. 0: never.");
-  prm.declare_entry("Inversion", "stop",
-                    dealii::Patterns::Selection("stop|erode|shrink step"),
+  prm.declare_entry("Inversion", "stop", one_of("stop|erode|shrink step"),
                     "What to do when a cell is about to turn inside out: stop "
                     "the run, erode the cell, or (shrink step) let no step "
                     "take more than a quarter of a cell's volume.");
 }
 
-FemOptions FemOptions::parse(const dealii::ParameterHandler &prm)
+FemOptions FemOptions::parse(const Parameters &prm)
 {
   FemOptions o;
   o.integration = prm.get("Integration") == "B-bar" ? Integration::b_bar

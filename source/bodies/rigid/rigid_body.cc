@@ -1,6 +1,6 @@
 #include "sabot/bodies/rigid/rigid_body.h"
 
-#include "sabot/base/quantity.h"
+#include "sabot/base/parameters.h"
 #include "sabot/bodies/body_report.h"
 
 #include <algorithm>
@@ -38,19 +38,18 @@ Mat point_inertia(const double m, const Vec r)
 }
 } // namespace
 
-void RigidOptions::declare_parameters(dealii::ParameterHandler &prm)
+void RigidOptions::declare_parameters(Parameters &prm)
 {
-  prm.declare_entry("Motion", "free",
-                    dealii::Patterns::Selection("free|prescribed"),
+  prm.declare_entry("Motion", "free", one_of("free|prescribed"),
                     "free: six degrees of freedom; prescribed: the initial "
                     "velocities stay, and their work counts as external.");
   prm.declare_entry("Angular velocity", "0 1/s, 0 1/s, 0 1/s",
-                    QuantityPattern(Dimension::strain_rate, 3, 3, -1e8, 1e8),
+                    quantities(Dimension::strain_rate, 3, 3, -1e8, 1e8),
                     "Rotation vector per time at time 0, about the centre of "
                     "mass.");
 }
 
-RigidOptions RigidOptions::parse(const dealii::ParameterHandler &prm)
+RigidOptions RigidOptions::parse(const Parameters &prm)
 {
   RigidOptions o;
   o.is_prescribed = prm.get("Motion") == "prescribed";

@@ -1,99 +1,93 @@
 #include "sabot/bodies/spg/spg_options.h"
 
 #include "sabot/base/error.h"
-#include "sabot/base/quantity.h"
-
-#include <deal.II/base/parameter_handler.h>
+#include "sabot/base/parameters.h"
 
 namespace sabot
 {
-void SpgOptions::declare_parameters(dealii::ParameterHandler &prm)
+void SpgOptions::declare_parameters(Parameters &prm)
 {
-  using dealii::Patterns::Integer;
-  using dealii::Patterns::Selection;
   prm.declare_entry(
       "Approximation", "least squares",
-      Selection("least squares|convex exponential|convex arctangent"),
+      one_of("least squares|convex exponential|convex arctangent"),
       "First-order functions of the particles. least squares: linearly "
       "corrected, the unknowns are the particles' positions; convex: "
       "generalised meshfree functions (Wu, Park & Chen 2011) with exponential "
       "or inverse-tangent basis, the unknowns are generalised positions.");
-  prm.declare_entry("Kernel shape", "spherical", Selection("spherical|tensor"),
+  prm.declare_entry("Kernel shape", "spherical", one_of("spherical|tensor"),
                     "Cubic spline of the radius, or product of cubic splines "
                     "along the axes of the kernel.");
   prm.declare_entry("Normalised support size", "2.0",
-                    QuantityPattern(Dimension::none, 1.0, 2.8),
+                    quantity(Dimension::none, 1.0, 2.8),
                     "Kernel radius (tensor: half width) over nodal spacing. "
                     "Spherical least squares needs 1.8 or more.");
   prm.declare_entry(
       "Stabilisation", "bond residual",
-      Selection("bond residual|second gradient|velocity smoothing|none"),
+      one_of("bond residual|second gradient|velocity smoothing|none"),
       "What keeps the sawtooth modes of direct nodal integration under "
       "control. second gradient needs a convex approximation; its stable "
       "step is 2 to 3 times shorter.");
   prm.declare_entry("Stabilisation coefficient", "4",
-                    QuantityPattern(Dimension::none, 0., 20.),
+                    quantity(Dimension::none, 0., 20.),
                     "Stiffness of the bond residual in shear moduli; 3 to 5 "
                     "give the same answers.");
   prm.declare_entry("Smoothing coefficient", "0.1",
-                    QuantityPattern(Dimension::none, 0., 1.),
+                    quantity(Dimension::none, 0., 1.),
                     "Part of the doubly smoothed difference that velocity "
                     "smoothing takes out each time.");
-  prm.declare_entry("Smoothing interval", "5", Integer(1),
+  prm.declare_entry("Smoothing interval", "5", integer(1),
                     "Steps between velocity smoothings.");
   prm.declare_entry(
       "Neighbour policy", "Lagrangian list",
-      Selection("Lagrangian list|search undamaged|search"),
+      one_of("Lagrangian list|search undamaged|search"),
       "Lagrangian list: bonds of the start, only ever removed; search "
       "undamaged: kernel updates add bonds between particles without a failed "
       "bond; search: between all pairs but those whose bond failed.");
-  prm.declare_entry("Kernel update interval", "30", Integer(1),
+  prm.declare_entry("Kernel update interval", "30", integer(1),
                     "Steps between updates of the Lagrangian kernel.");
   prm.declare_entry("Kernel update strain", "0.02",
-                    QuantityPattern(Dimension::none, 0., 1.),
+                    quantity(Dimension::none, 0., 1.),
                     "An interval passes without update when no particle has "
                     "strained by more than this since the last one; rotation "
                     "needs none. 0: every interval.");
   prm.declare_entry("Kernel update change", "1.1",
-                    QuantityPattern(Dimension::none, 1.01, 10.),
+                    quantity(Dimension::none, 1.01, 10.),
                     "A particle that has been stretched or flattened by about "
                     "this factor since the last update calls for an update at "
                     "once.");
-  prm.declare_entry("Failure check interval", "5", Integer(1),
+  prm.declare_entry("Failure check interval", "5", integer(1),
                     "Steps between checks of the bonds; where any fails, the "
                     "kernel is updated at once.");
   prm.declare_entry("Failure criterion", "effective plastic strain",
-                    Selection("effective plastic strain|maximum principal "
-                              "stress|maximum shear strain"),
+                    one_of("effective plastic strain|maximum principal "
+                           "stress|maximum shear strain"),
                     "A bond fails for ever when the mean of this over its two "
                     "ends exceeds the critical value and its stretch exceeds "
                     "the critical stretch.");
   prm.declare_entry("Critical effective plastic strain", "1e10",
-                    QuantityPattern(Dimension::none, 0.),
-                    "1e10: bonds never fail.");
+                    quantity(Dimension::none, 0.), "1e10: bonds never fail.");
   prm.declare_entry("Critical principal stress", "1e15",
-                    QuantityPattern(Dimension::pressure, 0.),
+                    quantity(Dimension::pressure, 0.),
                     "Tensile. 1e15: bonds never fail.");
   prm.declare_entry("Critical shear strain", "1e10",
-                    QuantityPattern(Dimension::none, 0.),
+                    quantity(Dimension::none, 0.),
                     "Largest difference of two principal logarithmic strains. "
                     "1e10: bonds never fail.");
-  prm.declare_entry("Critical stretch", "1",
-                    QuantityPattern(Dimension::none, 1., 10.),
+  prm.declare_entry("Critical stretch", "1", quantity(Dimension::none, 1., 10.),
                     "Distance over original distance above which a bond may "
                     "fail; at least 1, so that none fails in compression.");
   prm.declare_entry("Linear bulk viscosity", "0.06",
-                    QuantityPattern(Dimension::none, 0., 1.),
+                    quantity(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
   prm.declare_entry("Quadratic bulk viscosity", "1.5",
-                    QuantityPattern(Dimension::none, 0., 10.),
+                    quantity(Dimension::none, 0., 10.),
                     "Coefficient of rho h^2 (div v)^2 in compression.");
-  prm.declare_entry("Heat conduction", "false", dealii::Patterns::Bool(),
+  prm.declare_entry("Heat conduction", "false", boolean(),
                     "Implicit conduction between bonded particles, surfaces "
                     "and cracks insulated. Needs a law with temperature and "
                     "conductivity.");
   prm.declare_entry("Conduction interval", "1 us",
-                    QuantityPattern(Dimension::time, 0., 1e3),
+                    quantity(Dimension::time, 0., 1e3),
                     "Time between conduction steps.");
 }
 
@@ -101,7 +95,7 @@ namespace
 {
 /** Position of the entry's value in a list of names. */
 template <typename Choice>
-Choice choice(const dealii::ParameterHandler &prm, const std::string &entry,
+Choice choice(const Parameters &prm, const std::string &entry,
               const std::initializer_list<const char *> names)
 {
   int i = 0;
@@ -115,7 +109,7 @@ Choice choice(const dealii::ParameterHandler &prm, const std::string &entry,
 }
 
 /** An entry that has no effect with the choice made is a mistake. */
-void refuse_unused(const dealii::ParameterHandler &prm, const std::string &path,
+void refuse_unused(const Parameters &prm, const std::string &path,
                    const std::string &entry, const double value,
                    const double unset, const std::string &selector,
                    const std::string &needed)
@@ -128,8 +122,7 @@ void refuse_unused(const dealii::ParameterHandler &prm, const std::string &path,
 }
 } // namespace
 
-SpgOptions SpgOptions::parse(const dealii::ParameterHandler &prm,
-                             const std::string &path)
+SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
 {
   SpgOptions o;
   o.approximation = choice<Approximation>(

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-namespace dealii
+namespace sabot
 {
-class ParameterHandler;
+class Parameters;
 }
 
 namespace sabot
@@ -62,8 +62,8 @@ struct FemOptions
            erosion_step > 0. || inversion == Inversion::erode;
   }
 
-  static void declare_parameters(dealii::ParameterHandler &prm);
-  static FemOptions parse(const dealii::ParameterHandler &prm);
+  static void declare_parameters(Parameters &prm);
+  static FemOptions parse(const Parameters &prm);
 };
 } // namespace sabot
 

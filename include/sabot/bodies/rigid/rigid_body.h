@@ -7,9 +7,9 @@
 
 #include <memory>
 
-namespace dealii
+namespace sabot
 {
-class ParameterHandler;
+class Parameters;
 }
 
 namespace sabot
@@ -21,8 +21,8 @@ struct RigidOptions
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   std::array<double, 3> angular_velocity{{0., 0., 0.}}; // [1/s], at the start
 
-  static void declare_parameters(dealii::ParameterHandler &prm);
-  static RigidOptions parse(const dealii::ParameterHandler &prm);
+  static void declare_parameters(Parameters &prm);
+  static RigidOptions parse(const Parameters &prm);
 };
 
 /**

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-namespace dealii
+namespace sabot
 {
-class ParameterHandler;
+class Parameters;
 }
 
 namespace sabot
@@ -80,11 +80,10 @@ struct SpgOptions
   double critical_value() const;
   bool can_fail() const;
 
-  static void declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(Parameters &prm);
   /** @p path: of the body, for messages. Throws InputError for combinations
       that do not fit together. */
-  static SpgOptions parse(const dealii::ParameterHandler &prm,
-                          const std::string &path);
+  static SpgOptions parse(const Parameters &prm, const std::string &path);
 };
 } // namespace sabot
 

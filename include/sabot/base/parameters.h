@@ -1,0 +1,136 @@
+#ifndef sabot_base_parameters_h
+#define sabot_base_parameters_h
+
+#include "sabot/base/dimension.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+class ParameterHandler;
+namespace Patterns
+{
+class PatternBase;
+}
+} // namespace dealii
+
+namespace sabot
+{
+/**
+ * What an entry accepts. Cheap to copy; made by the functions below. Keeps
+ * deal.II's parameter handler (four seconds of parsing per file) out of the
+ * files that only declare and read entries.
+ */
+class Pattern
+{
+public:
+  explicit Pattern(std::shared_ptr<const dealii::Patterns::PatternBase> base)
+      : base(std::move(base))
+  {
+  }
+  bool match(const std::string &text) const;
+  /** What is right, in words, as the manual and messages say it. */
+  std::string description() const;
+  const dealii::Patterns::PatternBase &get() const { return *base; }
+
+private:
+  std::shared_ptr<const dealii::Patterns::PatternBase> base;
+};
+
+/** Any text. */
+Pattern any_text();
+/** Names separated by commas. */
+Pattern name_list();
+/** One of the words in @p words, separated by '|'. */
+Pattern one_of(const std::string &words);
+Pattern boolean();
+Pattern integer(const int low = -2147483647, const int high = 2147483647);
+/** A number with an optional unit ("12.7 mm", "324 MPa", "1e-4"), without one
+    in SI; refuses other dimensions and values outside [min, max] (SI). */
+Pattern quantity(const Dimension dimension, const double min = -1e300,
+                 const double max = 1e300);
+/** @p n_min to @p n_max such numbers, separated by commas. */
+Pattern quantities(const Dimension dimension, const unsigned int n_min,
+                   const unsigned int n_max, const double min = -1e300,
+                   const double max = 1e300);
+/** @p word, or what @p other accepts: a name for a special case that would
+    otherwise hide behind a number ("never", "yield"). */
+Pattern word_or(const std::string &word, const Pattern &other);
+
+/**
+ * Declared entries in nested subsections, and their values: a facade of
+ * deal.II's ParameterHandler with the part that models need to declare and to
+ * read themselves. Names are case-sensitive; all methods act on the present
+ * subsection.
+ */
+class Parameters
+{
+public:
+  Parameters();
+  ~Parameters();
+  Parameters(const Parameters &) = delete;
+  Parameters &operator=(const Parameters &) = delete;
+
+  void declare_entry(const std::string &name, const std::string &standard,
+                     const Pattern &pattern, const std::string &meaning);
+  void enter_subsection(const std::string &name);
+  void leave_subsection();
+
+  /** Text of an entry; throws std::logic_error for one not declared. */
+  std::string get(const std::string &name) const;
+  bool get_bool(const std::string &name) const;
+  long get_integer(const std::string &name) const;
+  bool is_declared(const std::string &name) const;
+  /** @return false where the entry does not accept @p value. */
+  bool set(const std::string &name, const std::string &value);
+
+  /** deal.II's object, for reading and printing whole files. */
+  dealii::ParameterHandler &handler() { return *prm; }
+  const dealii::ParameterHandler &handler() const { return *prm; }
+
+private:
+  std::unique_ptr<dealii::ParameterHandler> prm;
+};
+
+/** Enters Section/name of the parameters while it lives. */
+class Entered
+{
+public:
+  Entered(Parameters &prm, const std::string &section, const std::string &name)
+      : prm(prm)
+  {
+    prm.enter_subsection(section);
+    prm.enter_subsection(name);
+  }
+  ~Entered()
+  {
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+  Entered(const Entered &) = delete;
+  Entered &operator=(const Entered &) = delete;
+
+private:
+  Parameters &prm;
+};
+
+/** Value in SI units of an entry declared with quantity(). */
+double get_quantity(const Parameters &prm, const std::string &name);
+/** The same of an entry declared with word_or(word, quantity()): nothing where
+    the entry is the word. */
+std::optional<double> get_optional_quantity(const Parameters &prm,
+                                            const std::string &name);
+/** Values in SI units of an entry declared with quantities(). */
+std::vector<double> get_quantities(const Parameters &prm,
+                                   const std::string &name);
+/** SI value of a text that quantity() accepts for some dimension, e.g. "1.27
+    mm"; nothing where there is no such dimension. */
+std::optional<double> read_quantity(const std::string &text);
+/** Entries of a comma-separated list of names, trimmed, empty ones dropped. */
+std::vector<std::string> split_names(const std::string &text);
+} // namespace sabot
+
+#endif

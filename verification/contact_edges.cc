@@ -1,0 +1,395 @@
+#include "sabot/couplings/contact.h"
+#include "sabot/geometry/mesh_extraction.h"
+#include "verification/problem.h"
+#include "verification/world.h"
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+
+namespace sabot
+{
+namespace
+{
+HexMesh brick(const std::array<double, 3> &size,
+              const std::array<double, 3> &centre, const double h)
+{
+  BoxSpecification b;
+  b.size = size;
+  b.centre = centre;
+  b.cell_size = h;
+  return make_graded_box(b);
+}
+
+void add_fem(World &world, const HexMesh &mesh,
+             const std::array<double, 3> &velocity, const double nu = 0.33)
+{
+  FemOptions options;
+  options.initial_velocity = velocity;
+  world.bodies.push_back(std::make_unique<FemBody>(
+      "fem" + std::to_string(world.bodies.size()), world.bodies.size(), mesh,
+      elastic(nu), options));
+}
+
+void add_spg(World &world, const std::array<double, 3> &size,
+             const std::array<double, 3> &centre, const double h,
+             const std::array<double, 3> &velocity, const double nu = 0.33)
+{
+  SpgOptions options;
+  options.initial_velocity = velocity;
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "spg" + std::to_string(world.bodies.size()), world.bodies.size(),
+      make_box_cloud(centre, size, h), elastic(nu), options));
+}
+
+/** Bodies 0 and 1 touch; only hexahedra have faces. */
+void add_contact(World &world, const bool particles,
+                 const ContactOptions &options = ContactOptions())
+{
+  std::vector<ContactPair> pairs = {{0, 1, false}};
+  if (!particles)
+    pairs.push_back({1, 0, false});
+  world.couplings.push_back(std::make_unique<Contact>(
+      "contact", world.pointers(), pairs, options, MPI_COMM_WORLD));
+}
+
+/** Lowest node of body 0 below the highest of 1 along x, in spacings of 1 mm.
+ */
+double overlap(const World &world)
+{
+  double low = 1e300, high = -1e300;
+  const NodalState &a = world.bodies[0]->nodes(), &b = world.bodies[1]->nodes();
+  for (std::size_t i = 0; i < a.n_owned; ++i)
+    low = std::min(low, a.position[i][0]);
+  for (std::size_t i = 0; i < b.n_owned; ++i)
+    high = std::max(high, b.position[i][0]);
+  return (high - low) / 1e-3;
+}
+
+/** Equal cross-sections with their edges aligned meet, nodes on nodes. */
+std::vector<Check> aligned()
+{
+  std::vector<Check> checks;
+  for (const bool particles : {false, true})
+    for (const int width : {1, 2, 4})
+    {
+      World world;
+      const double w = width * 1e-3, v = 100.;
+      add_fem(world, brick({{10e-3, w, w}}, {{5.02e-3, 0, 0}}, 1e-3),
+              {{-v, 0, 0}});
+      if (particles)
+        add_spg(world, {{10e-3, w, w}}, {{-5.02e-3, 0, 0}}, 1e-3, {{v, 0, 0}});
+      else
+        add_fem(world, brick({{10e-3, w, w}}, {{-5.02e-3, 0, 0}}, 1e-3),
+                {{v, 0, 0}});
+      add_contact(world, particles);
+      world.distribute();
+      world.integrator.initialize();
+      const double energy = world.total_energy();
+      double deepest = 0.;
+      while (world.integrator.time < 12e-6)
+      {
+        world.advance(0.5);
+        deepest = std::max(deepest, overlap(world));
+      }
+      const std::string where =
+          std::string(particles ? "particles, " : "cells, ") +
+          std::to_string(width) + " wide: ";
+      checks.push_back({where + "deepest overlap over the spacing", 0.25,
+                        deepest, 0., "1", "they do not pass",
+                        Check::Kind::at_most});
+      checks.push_back(
+          {where + "momentum over one bar's", 0.,
+           world.momenta()[0] / (measure(*world.bodies[0], "mass") * v), 1e-11,
+           "1", "conservation"});
+      checks.push_back({where + "gain of energy after parting", 0.,
+                        world.total_energy() / energy - 1., 1e-3, "1",
+                        "energy balance", Check::Kind::at_most});
+      checks.push_back({where + "velocity of rebound over the first", 0.9,
+                        measure(*world.bodies[0], "velocity x") / v, 0., "1",
+                        "equal bars exchange velocities",
+                        Check::Kind::at_least});
+    }
+  return checks;
+}
+
+/** A stiff thin plate: a node that passes its middle in one step is still
+    driven back through the side it came by. */
+std::vector<Check> deep()
+{
+  World world;
+  // Thin cells make small steps; a soft penalty makes the depth.
+  ContactOptions options;
+  options.stiffness_scale = 0.02;
+  add_fem(world, brick({{0.6e-3, 8e-3, 8e-3}}, {{-0.3e-3, 0, 0}}, 1e-3),
+          {{0, 0, 0}});
+  add_fem(world, brick({{4e-3, 4e-3, 4e-3}}, {{2.02e-3, 0.3e-3, 0.2e-3}}, 1e-3),
+          {{-100., 0, 0}});
+  add_contact(world, false, options);
+  world.distribute();
+  world.integrator.initialize();
+  const double energy = world.total_energy();
+  const NodalState &plate = world.bodies[0]->nodes(),
+                   &block = world.bodies[1]->nodes();
+  double deepest = 0., highest = 0.;
+  const auto gap = [&]
+  {
+    double front = -1e300, low = 1e300;
+    for (std::size_t i = 0; i < plate.n_owned; ++i)
+      if (std::abs(plate.reference_position[i][0]) < 1e-9 &&
+          std::abs(plate.reference_position[i][1]) < 3.5e-3 &&
+          std::abs(plate.reference_position[i][2]) < 3.5e-3)
+        front = std::max(front, plate.position[i][0]);
+    for (std::size_t i = 0; i < block.n_owned; ++i)
+      low = std::min(low, block.position[i][0]);
+    return low - front;
+  };
+  while (world.integrator.time < 60e-6)
+  {
+    world.advance(0.9);
+    deepest = std::max(deepest, -gap());
+    highest = std::max(highest, world.total_energy() / energy - 1.);
+  }
+  return {
+      {"deepest penetration over the plate's thickness", 0.5, deepest / 0.6e-3,
+       0., "1", "past the middle", Check::Kind::at_least},
+      {"gap after", 0., gap(), 0., "m", "recovered", Check::Kind::at_least},
+      {"momentum, change over the first", 0.,
+       world.momenta()[0] / (-100. * measure(*world.bodies[1], "mass")) - 1.,
+       1e-11, "1", "conservation"},
+      {"largest gain of energy", 0., highest, 1e-3, "1", "energy balance",
+       Check::Kind::at_most}};
+}
+
+/** A beam with square cross-section of 2 mm, on one of its edges; its cells of
+    1 mm are turned by 45 degrees about the axis y or z. */
+HexMesh beam_on_edge(const unsigned int axis, const double x)
+{
+  dealii::Triangulation<3> grid;
+  const double half = 1e-3;
+  dealii::GridGenerator::subdivided_hyper_rectangle(
+      grid, {2, 2, 8}, {-half, -half, -4e-3}, {half, half, 4e-3});
+  dealii::GridTools::transform(
+      [&](const dealii::Point<3> &p)
+      {
+        const double s = std::sqrt(0.5), a = s * (p[0] - p[1]),
+                     b = s * (p[0] + p[1]);
+        return axis == 2 ? dealii::Point<3>(x + a, b, p[2])
+                         : dealii::Point<3>(x - a, p[2], b);
+      },
+      grid);
+  return extract_mesh(grid);
+}
+
+/** Two beams cross, edge on edge, between their nodes: only nodes are held,
+    so the edges go in until nodes meet faces. A limit, measured. */
+std::vector<Check> crossed()
+{
+  World world;
+  const double r = std::sqrt(2.) * 1e-3, v = 20.;
+  HexMesh first = beam_on_edge(2, r + 0.01e-3), second = beam_on_edge(1, -r);
+  for (auto &p : first.nodes)
+  {
+    p[1] += 0.5e-3;
+    p[2] += 0.5e-3;
+  }
+  add_fem(world, first, {{-v, 0, 0}});
+  add_fem(world, second, {{v, 0, 0}});
+  add_contact(world, false);
+  world.distribute();
+  world.integrator.initialize();
+  const double energy = world.total_energy();
+  double deepest = 0., highest = 0.;
+  while (world.integrator.time < 150e-6)
+  {
+    world.advance(0.9);
+    deepest = std::max(deepest, overlap(world));
+    highest = std::max(highest, world.total_energy() / energy - 1.);
+  }
+  return {{"deepest overlap of the edges over the spacing", 0., deepest, 0.,
+           "1", "limit: edges meet through nodes", Check::Kind::reported},
+          {"velocity after over the first", 0.,
+           measure(*world.bodies[0], "velocity x") / v, 0., "1", "they part",
+           Check::Kind::at_least},
+          {"largest gain of energy", 0., highest, 1e-3, "1", "energy balance",
+           Check::Kind::at_most}};
+}
+
+/** @p n small cubes (one cell, turned at random) or single particles hit a
+    plate at random places and angles. */
+struct Shots
+{
+  int n = 0, n_through = 0;
+  double momentum = 0., energy = 0.; // largest change, largest gain
+  double given = 0.;                 // by the contact, largest
+};
+
+void shoot(Shots &shots, const bool cubes, const int n, const int seed)
+{
+  constexpr double edge = 1e-3, half_width = 20e-3;
+  // Cells that tumble faster gain energy by themselves at this step.
+  const double speed = cubes ? 100. : 300.;
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  World world;
+  add_fem(
+      world,
+      brick({{2. * half_width, 2. * half_width, 2e-3}}, {{0, 0, -1e-3}}, 2e-3),
+      {{0, 0, 0}});
+  std::vector<Vec> velocity;
+  std::vector<dealii::Point<3>> corners;
+  std::vector<dealii::CellData<3>> cells;
+  ParticleCloud cloud;
+  cloud.spacing = {{0.1 * edge, 0.1 * edge, 0.1 * edge}}; // no bonds
+  for (int i = 0; i < n; ++i)
+  {
+    // Up to 80 degrees from the normal.
+    const double cosine = 0.5 * (1.17 + 0.82 * uniform(generator)),
+                 sine = std::sqrt(1. - cosine * cosine),
+                 turn = M_PI * uniform(generator);
+    const Vec direction =
+        vec(sine * std::cos(turn), sine * std::sin(turn), -cosine);
+    velocity.push_back(speed * direction);
+    const Vec aim =
+        vec(12e-3 * uniform(generator), 12e-3 * uniform(generator), 0.);
+    const Vec start = aim - (1e-3 / cosine) * direction;
+    if (!cubes)
+    {
+      cloud.position.push_back({{start[0], start[1], start[2]}});
+      cloud.volume.push_back(edge * edge * edge);
+      cloud.on_face.push_back(0);
+      continue;
+    }
+    Vec a = vec(normal(generator), normal(generator), normal(generator)),
+        b = vec(normal(generator), normal(generator), normal(generator));
+    a *= 1. / norm(a);
+    b -= dot(a, b) * a;
+    b *= 1. / norm(b);
+    const Vec c = cross(a, b);
+    dealii::CellData<3> cell;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const Vec x =
+          start + vec(0., 0., 0.5 * edge) +
+          0.5 * edge *
+              ((corner & 1 ? 1. : -1.) * a + (corner & 2 ? 1. : -1.) * b +
+               (corner & 4 ? 1. : -1.) * c);
+      cell.vertices[corner] = corners.size();
+      corners.emplace_back(x[0], x[1], x[2]);
+    }
+    cells.push_back(cell);
+  }
+  if (cubes)
+  {
+    dealii::Triangulation<3> grid;
+    grid.create_triangulation(corners, cells, dealii::SubCellData());
+    add_fem(world, extract_mesh(grid), {{0, 0, 0}});
+  }
+  else
+    world.bodies.push_back(
+        std::make_unique<SpgBody>("shots", 1, cloud, elastic(), SpgOptions()));
+  ContactOptions options;
+  options.friction = 0.2;
+  add_contact(world, !cubes, options);
+  world.distribute();
+  NodalState &s = world.bodies[1]->nodes();
+  // Nodes of a body are reordered: the nearest start tells which shot it is.
+  const std::size_t per_shot = cubes ? 8 : 1;
+  std::vector<int> shot_of(s.n_owned, -1);
+  for (std::size_t i = 0; i < s.n_owned; ++i)
+  {
+    double best = 1e300;
+    for (int k = 0; k < int(per_shot) * n; ++k)
+    {
+      const Vec x = cubes ? vec(corners[k][0], corners[k][1], corners[k][2])
+                          : vec(cloud.position[k][0], cloud.position[k][1],
+                                cloud.position[k][2]);
+      const double d = norm_square(x - s.position[i]);
+      if (d < best)
+      {
+        best = d;
+        shot_of[i] = k / per_shot;
+      }
+    }
+    s.velocity[i] = velocity[shot_of[i]];
+  }
+  world.integrator.initialize();
+  const double energy = world.total_energy();
+  const auto before = world.momenta();
+  const NodalState &plate = world.bodies[0]->nodes();
+  std::vector<char> through(n, 0);
+  while (world.integrator.time < 15e-3 / speed)
+  {
+    for (int k = 0; k < 10; ++k)
+      world.advance(cubes ? 0.4 : 0.9);
+    shots.given = std::max(shots.given, -world.energies()[2] / energy);
+    shots.energy = std::max(shots.energy, world.total_energy() / energy - 1.);
+    double middle = 0.;
+    for (std::size_t i = 0; i < plate.n_owned; ++i)
+      middle += plate.position[i][2] / plate.n_owned;
+    std::vector<Vec> centre(n, Vec{});
+    for (std::size_t i = 0; i < s.n_owned; ++i)
+      centre[shot_of[i]] += (1. / per_shot) * s.position[i];
+    for (int k = 0; k < n; ++k)
+      if (std::abs(centre[k][0]) < half_width &&
+          std::abs(centre[k][1]) < half_width && centre[k][2] < middle)
+        through[k] = 1;
+  }
+  const auto after = world.momenta();
+  for (int d = 0; d < 3; ++d)
+    shots.momentum =
+        std::max(shots.momentum, std::abs((after[d] - before[d]) / before[2]));
+  shots.n += n;
+  for (const char t : through)
+    shots.n_through += t;
+}
+
+std::vector<Check> leak(const int n_batches)
+{
+  std::vector<Check> checks;
+  for (const bool cubes : {false, true})
+  {
+    Shots shots;
+    for (int batch = 0; batch < n_batches; ++batch)
+      shoot(shots, cubes, 100, 17 + batch);
+    const std::string what = cubes ? "cubes: " : "particles: ";
+    checks.push_back({what + "impacts", 100. * n_batches, double(shots.n), 0.,
+                      "1", "count"});
+    checks.push_back({what + "passed through", 0., double(shots.n_through), 0.,
+                      "1", "none may"});
+    checks.push_back({what + "momentum, change over the first", 0.,
+                      shots.momentum, 1e-11, "1", "conservation"});
+    checks.push_back({what + "energy given by the contact over the first", 0.,
+                      shots.given, 1e-3, "1", "it only takes",
+                      Check::Kind::at_most});
+    // Single cells that tumble gain some by themselves.
+    checks.push_back({what + "largest gain of energy", 0., shots.energy, 1e-3,
+                      "1", "energy balance",
+                      cubes ? Check::Kind::reported : Check::Kind::at_most});
+  }
+  return checks;
+}
+
+std::vector<Check> leak_quick()
+{
+  return leak(1);
+}
+
+std::vector<Check> leak_long()
+{
+  return leak(50);
+}
+
+const RegisterProblem
+    a({"contact-aligned",
+       "equal cross-sections with aligned edges do not slip through", "quick",
+       aligned}),
+    b({"contact-deep", "a node past the middle of a plate comes back", "quick",
+       deep}),
+    c({"contact-crossed-edges", "edge on edge: how far they overlap", "quick",
+       crossed}),
+    d({"contact-leak", "200 random oblique impacts", "quick", leak_quick}),
+    e({"contact-leak-long", "10000 random oblique impacts", "long", leak_long});
+} // namespace
+} // namespace sabot

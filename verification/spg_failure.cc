@@ -1,0 +1,362 @@
+#include "verification/problem.h"
+#include "verification/world.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+namespace
+{
+constexpr double h = 1e-3;
+const ElasticConstants aluminium{2700., 68.9e9, 0.33};
+
+/** J2 plasticity without hardening. */
+std::shared_ptr<Material> perfect(const double yield)
+{
+  return std::make_shared<HardeningPlasticity>(
+      aluminium, HardeningParameters{yield, 0., 1.});
+}
+
+SpgOptions inviscid()
+{
+  SpgOptions o;
+  o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
+  o.failure_check_interval = 1;
+  return o;
+}
+
+SpgBody &add_block(World &world, const SpgOptions &options,
+                   std::shared_ptr<const Material> material)
+{
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "block", 0, perturbed_cloud({{4e-3, 4e-3, 4e-3}}, h, 0.1), material,
+      options));
+  world.distribute();
+  return static_cast<SpgBody &>(*world.bodies[0]);
+}
+
+void deform(SpgBody &body, const Mat &A, const double dt, const int step)
+{
+  NodalState &n = body.nodes();
+  for (std::size_t i = 0; i < n.size(); ++i)
+    n.position[i] = A * n.reference_position[i];
+  body.update_ghosts();
+  body.compute_forces(0., dt);
+  body.update_topology(step, 0.);
+}
+
+/** Load until the first bonds fail, then go back and load the other way.
+    @p motion: A by the load, 0 at rest. */
+template <typename Motion>
+void add_criterion(std::vector<Check> &checks, const std::string &who,
+                   const SpgOptions &options,
+                   std::shared_ptr<const Material> material,
+                   const double expected, const std::string &source,
+                   const Motion &motion)
+{
+  World world;
+  SpgBody &body = add_block(world, options, material);
+  constexpr double dt = 1e-8;
+  const double step = 5e-4 * expected;
+  double load = 0., failed_at = std::nan("");
+  int n = 0;
+  while (std::isnan(failed_at) && load < 2. * expected)
+  {
+    load += step;
+    deform(body, motion(load), dt, ++n);
+    if (measure(body, "bonds broken") > 0.)
+      failed_at = load;
+  }
+  checks.push_back({who + ": load of first failure", expected, failed_at,
+                    2. * step, "1", source});
+  const double broken = measure(body, "bonds broken");
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+    left += body.bond_list().n_bonds(i);
+  checks.push_back({who + ": bonds that fail then", 1., broken, 0., "1",
+                    "uniform deformation", Check::Kind::at_least});
+  // Back to rest and beyond: none comes back, none fails in compression.
+  double after = broken;
+  std::size_t most = 0;
+  for (; load > -0.5 * expected; load -= 5. * step)
+  {
+    deform(body, motion(load), dt, ++n);
+    std::size_t bonds = 0;
+    for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+      bonds += body.bond_list().n_bonds(i);
+    most = std::max(most, bonds);
+    after = measure(body, "bonds broken");
+  }
+  checks.push_back({who + ": bonds after unloading", double(left), double(most),
+                    0., "1", "irreversible", Check::Kind::at_most});
+  checks.push_back({who + ": broken bonds after unloading", broken, after, 0.,
+                    "1", "irreversible", Check::Kind::at_least});
+}
+
+std::vector<Check> criteria()
+{
+  std::vector<Check> checks;
+  using Criterion = SpgOptions::FailureCriterion;
+  const double K = aluminium.bulk_modulus(), G = aluminium.shear_modulus();
+  const auto uniaxial = [](const double e)
+  {
+    Mat A = Mat::identity();
+    A.set(0, 0, std::exp(e));
+    return A;
+  };
+  const auto isochoric = [](const double e)
+  {
+    Mat A = Mat::zero();
+    A.set(0, 0, std::exp(e));
+    A.set(1, 1, std::exp(-0.5 * e));
+    A.set(2, 2, std::exp(-0.5 * e));
+    return A;
+  };
+  const auto shear = [](const double gamma)
+  {
+    Mat A = Mat::identity();
+    A.set(0, 1, gamma);
+    return A;
+  };
+  {
+    // eps_p = e - Y/(3 G) in isochoric stretching without hardening.
+    SpgOptions o = inviscid();
+    o.critical_effective_plastic_strain = 0.1;
+    const double Y = 324e6;
+    add_criterion(checks, "plastic strain 0.1", o, perfect(Y),
+                  0.1 + Y / (3. * G), "e - Y/(3 G)", isochoric);
+  }
+  {
+    // Uniaxial strain: sigma_xx = (K + 4 G/3) e.
+    SpgOptions o = inviscid();
+    o.failure_criterion = Criterion::principal_stress;
+    o.critical_principal_stress = 1e9;
+    add_criterion(checks, "principal stress 1 GPa", o, elastic(0.33),
+                  1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e", uniaxial);
+  }
+  {
+    // Simple shear: ln(l1/l3) = 2 asinh(gamma/2).
+    SpgOptions o = inviscid();
+    o.failure_criterion = Criterion::shear_strain;
+    o.critical_shear_strain = 0.2;
+    add_criterion(checks, "shear strain 0.2", o, elastic(0.33),
+                  2. * std::sinh(0.1), "2 asinh(gamma/2)", shear);
+  }
+  {
+    // Both conditions: the first bonds are those along the stretch.
+    SpgOptions o = inviscid();
+    o.failure_criterion = Criterion::principal_stress;
+    o.critical_principal_stress = 1e9;
+    o.critical_stretch = 1.05;
+    World world;
+    SpgBody &body = add_block(world, o, elastic(0.33));
+    double first = std::nan("");
+    std::size_t wrong = 0;
+    int n = 0;
+    for (double e = 0.; e < 0.07 && std::isnan(first); e += 1e-4)
+    {
+      deform(body, uniaxial(e), 1e-8, ++n);
+      if (measure(body, "bonds broken") > 0.)
+        first = std::exp(e);
+    }
+    // What is left is not longer than the critical stretch.
+    const NodalState &nodes = body.nodes();
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
+      for (std::size_t b = body.bond_list().begin(i);
+           b < body.bond_list().end(i); ++b)
+      {
+        const std::uint32_t j = body.bond_list().neighbor[b];
+        wrong += norm(nodes.position[j] - nodes.position[i]) >
+                 1.05 * norm(nodes.reference_position[j] -
+                             nodes.reference_position[i]);
+      }
+    checks.push_back({"critical stretch 1.05: stretch of first failure", 1.05,
+                      first, 2e-3, "1", "the bond nearest to the axis",
+                      Check::Kind::near});
+    checks.push_back({"critical stretch 1.05: longer bonds left", 0.,
+                      double(wrong), 0., "1", "both conditions are met"});
+  }
+  return checks;
+}
+
+/** Bonds of the middle of a block fail; the halves are then pressed together
+    through many kernel updates with a search. */
+std::vector<Check> no_healing()
+{
+  std::vector<Check> checks;
+  using Policy = SpgOptions::NeighborPolicy;
+  for (const Policy policy :
+       {Policy::lagrangian, Policy::search_undamaged, Policy::search})
+  {
+    World world;
+    SpgOptions o = inviscid();
+    o.neighbor_policy = policy;
+    o.kernel_update_interval = 4;
+    o.kernel_update_strain = 0.;
+    o.critical_effective_plastic_strain = 0.1;
+    SpgBody &body = add_block(world, o, perfect(324e6));
+    NodalState &n = body.nodes();
+    // The particles beside the middle plane are strained beyond the limit.
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+      if (std::abs(n.reference_position[i][0]) < 0.5e-3)
+        body.set_state("effective plastic strain", i, 0.25);
+    const auto pairs = [&]
+    {
+      std::vector<std::pair<GlobalIndex, GlobalIndex>> all;
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+        for (std::size_t b = body.bond_list().begin(i);
+             b < body.bond_list().end(i); ++b)
+          all.emplace_back(n.global_id[i],
+                           n.global_id[body.bond_list().neighbor[b]]);
+      return all;
+    };
+    const auto original = pairs();
+    int step = 0;
+    Mat A = Mat::identity();
+    for (; step < 20; ++step)
+    {
+      A.set(0, 0, 1. + 1e-3 * (step + 1));
+      deform(body, A, 1e-8, step + 1);
+    }
+    const auto survivors = pairs();
+    std::vector<std::pair<GlobalIndex, GlobalIndex>> failed;
+    std::set_difference(original.begin(), original.end(), survivors.begin(),
+                        survivors.end(), std::back_inserter(failed));
+    // Compression and shear by half a spacing over the height: searches find
+    // what has come near.
+    const std::size_t updates = body.n_kernel_updates();
+    for (int k = 0; k < 200; ++k, ++step)
+    {
+      A.set(0, 0, 1.02 - 5e-4 * k);
+      A.set(0, 1, 3e-3 * k);
+      deform(body, A, 1e-8, step + 1);
+    }
+    const auto now = pairs();
+    std::vector<std::pair<GlobalIndex, GlobalIndex>> healed, added;
+    std::set_intersection(failed.begin(), failed.end(), now.begin(), now.end(),
+                          std::back_inserter(healed));
+    std::set_difference(now.begin(), now.end(), original.begin(),
+                        original.end(), std::back_inserter(added));
+    const std::string who = policy == Policy::lagrangian ? "Lagrangian list: "
+                            : policy == Policy::search   ? "search: "
+                                                         : "search undamaged: ";
+    checks.push_back({who + "bonds failed", 10., double(failed.size()), 0., "1",
+                      "so that some could heal", Check::Kind::at_least});
+    checks.push_back({who + "kernel updates since", 40.,
+                      double(body.n_kernel_updates() - updates), 0., "1",
+                      "searches", Check::Kind::at_least});
+    checks.push_back({who + "failed bonds that came back", 0.,
+                      double(healed.size()), 0., "1", "irreversible"});
+    if (policy != Policy::search)
+      checks.push_back({who + "new bonds of damaged particles", 0.,
+                        double(added.size()), 0., "1",
+                        "the whole block is damaged"});
+    else
+      checks.push_back({who + "new bonds", 1., double(added.size()), 0., "1",
+                        "what came near without a failed bond",
+                        Check::Kind::at_least});
+  }
+  for (const Policy policy : {Policy::search_undamaged, Policy::search})
+  {
+    // Intact, sheared by 100 %: neighbours change, F stays exact.
+    World world;
+    SpgOptions o = inviscid();
+    o.neighbor_policy = policy;
+    o.kernel_update_interval = 4;
+    SpgBody &body = add_block(world, o, elastic(0.33));
+    NodalState &n = body.nodes();
+    const auto n_bonds = [&]
+    {
+      std::size_t sum = 0;
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+        sum += body.bond_list().n_bonds(i);
+      return double(sum);
+    };
+    const double before = n_bonds();
+    Mat A = Mat::identity();
+    for (int step = 1; step <= 400; ++step)
+    {
+      A.set(0, 1, 2.5e-3 * step);
+      deform(body, A, 1e-8, step);
+    }
+    double error = 0.;
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+      error = std::max(error,
+                       std::abs(body.deformation_gradient(i)(0, 1) - A(0, 1)));
+    const std::string who = policy == Policy::search
+                                ? "search, intact block: "
+                                : "search undamaged, intact block: ";
+    checks.push_back({who + "shear of F, largest error", 0., error, 1e-9, "1",
+                      "uniform deformation"});
+    checks.push_back({who + "bonds over those of the start", 0.,
+                      n_bonds() / before, 0., "1", "", Check::Kind::reported});
+  }
+  return checks;
+}
+
+/** A particle that lost a side goes on: plastic flow under compression and
+    shear, no stress in tension, and its state is kept when it is alone. */
+std::vector<Check> weak_particles()
+{
+  World world;
+  SpgOptions o = inviscid();
+  o.critical_effective_plastic_strain = 0.1;
+  const double Y = 324e6;
+  SpgBody &body = add_block(world, o, perfect(Y));
+  NodalState &n = body.nodes();
+  // The layer before the last comes loose: the last is a sheet.
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+    if (std::abs(n.reference_position[i][0] - h) < 0.5 * h)
+      body.set_state("effective plastic strain", i, 0.25);
+  int step = 0;
+  Mat A = Mat::identity();
+  for (; step < 20; ++step)
+  {
+    A.set(0, 0, 1. + 1e-3 * (step + 1));
+    deform(body, A, 1e-8, step + 1);
+  }
+  std::vector<std::size_t> weak;
+  double tension = -1e300;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+    if (body.is_weak(i) && body.bond_list().n_bonds(i) >= 4)
+    {
+      weak.push_back(i);
+      for (int c = 0; c < 3; ++c)
+        tension = std::max(tension, body.stress(c, i));
+    }
+  // Compressed along the sheet.
+  for (int k = 0; k < 200; ++k, ++step)
+  {
+    A.set(1, 1, 1. - 5e-4 * k);
+    deform(body, A, 1e-8, step + 1);
+  }
+  // The sheet is held in its plane and free across: uniaxial strain there.
+  double strained = 0., extra = -1e300, pressed = 0.;
+  const double expected =
+      aluminium.bulk_modulus() * std::log(A(1, 1)) - 2. / 3. * Y;
+  for (const std::size_t i : weak)
+  {
+    pressed = std::min(pressed, body.stress(1, i));
+    strained = std::max(strained, body.state("effective plastic strain", i));
+    for (int c = 0; c < 3; ++c)
+      extra = std::max(extra, body.stress(c, i));
+  }
+  return {{"particles that lost a direction", 10., double(weak.size()), 0., "1",
+           "a sheet of 5 x 5 particles", Check::Kind::at_least},
+          {"their largest tension over yield", 0., std::max(tension, extra) / Y,
+           1e-9, "1", "no tension across a gap", Check::Kind::at_most},
+          {"stress along the sheet", expected, pressed,
+           0.03 * std::abs(expected), "Pa", "K ln J - 2 Y/3: it flows"},
+          {"their largest plastic strain", 0.05, strained, 0., "1",
+           "the state goes on", Check::Kind::at_least}};
+}
+
+const RegisterProblem a({"spg-failure-criteria",
+                         "level and irreversibility of the three criteria",
+                         "quick", criteria}),
+    b({"spg-no-healing", "failed bonds and the neighbour policies", "quick",
+       no_healing}),
+    c({"spg-weak-particles", "what particles beside a crack carry", "quick",
+       weak_particles});
+} // namespace
+} // namespace sabot

@@ -1,0 +1,130 @@
+#ifndef verification_world_h
+#define verification_world_h
+
+#include "sabot/bodies/fem/fem_body.h"
+#include "sabot/bodies/spg/spg_body.h"
+#include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/partition.h"
+#include "sabot/integrator/central_difference.h"
+#include "sabot/materials/laws.h"
+
+#include <cmath>
+#include <random>
+
+namespace sabot
+{
+/** Bodies and couplings under the integrator, without a scene file. */
+struct World
+{
+  std::vector<std::unique_ptr<Body>> bodies;
+  std::vector<std::unique_ptr<Coupling>> couplings;
+  Timers timers;
+  CentralDifference integrator{bodies, couplings, timers, MPI_COMM_WORLD};
+  unsigned int step = 0;
+
+  void distribute()
+  {
+    for (auto &body : bodies)
+    {
+      const auto &points = body->partition_points();
+      body->node_owner = partition(
+          points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
+      body->distribute(body->node_owner, MPI_COMM_WORLD);
+    }
+    for (auto c = couplings.rbegin(); c != couplings.rend(); ++c)
+      (*c)->initialize();
+  }
+  std::vector<Body *> pointers() const
+  {
+    std::vector<Body *> p;
+    for (auto &body : bodies)
+      p.push_back(body.get());
+    return p;
+  }
+  double advance(const double factor)
+  {
+    const double dt = factor * integrator.propose(false).dt;
+    integrator.advance(dt);
+    integrator.update_topology(++step);
+    return dt;
+  }
+  /** Kinetic, internal (with stabilisation, hourglass, eroded), contact with
+      friction. */
+  std::array<double, 3> energies() const
+  {
+    EnergyLedger e;
+    for (auto &body : bodies)
+      body->add_energies(e);
+    for (auto &coupling : couplings)
+      coupling->add_energies(e);
+    ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
+                      &e.contact, &e.friction, &e.eroded},
+                     MPI_COMM_WORLD);
+    return {{e.kinetic.value(),
+             e.internal.value() + e.stabilization.value() +
+                 e.hourglass.value() + e.eroded.value(),
+             e.contact.value() + e.friction.value()}};
+  }
+  double total_energy() const
+  {
+    const auto e = energies();
+    return e[0] + e[1] + e[2];
+  }
+  /** Linear and angular momentum of this rank's nodes (tests on one rank). */
+  std::array<double, 6> momenta() const
+  {
+    std::array<double, 6> sum{};
+    for (auto &body : bodies)
+    {
+      const NodalState &n = body->nodes();
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+      {
+        const Vec p = n.inertia[i] * n.velocity[i], l = cross(n.position[i], p);
+        for (int d = 0; d < 3; ++d)
+        {
+          sum[d] += p[d];
+          sum[3 + d] += l[d];
+        }
+      }
+    }
+    return sum;
+  }
+};
+
+inline std::shared_ptr<Material> elastic(const double nu = 0.33)
+{
+  return std::make_shared<Elastic>(ElasticConstants{2700., 68.9e9, nu});
+}
+
+inline double measure(const Body &body, const std::string &name)
+{
+  for (const Measure &m : body.measure())
+    if (m.name == name)
+      return m.value;
+  return std::nan("");
+}
+
+/** Random velocities of about @p speed on all owned nodes. */
+inline void shake(Body &body, const double speed)
+{
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-speed, speed);
+  for (Vec &v : body.nodes().velocity)
+    v = vec(uniform(generator), uniform(generator), uniform(generator));
+}
+
+/** Displace every node of a cloud by a random part of the spacing. */
+inline ParticleCloud perturbed_cloud(const std::array<double, 3> &size,
+                                     const double h, const double part)
+{
+  ParticleCloud cloud = make_box_cloud({{0, 0, 0}}, size, h);
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(-part * h, part * h);
+  for (auto &p : cloud.position)
+    for (double &x : p)
+      x += uniform(generator);
+  return cloud;
+}
+} // namespace sabot
+
+#endif
