@@ -93,10 +93,13 @@ void Scene::check_overlaps() const
     const std::string path = "Couplings/" + name;
     const std::string follower = file.value(path + "/Follower", ""),
                       leader = file.value(path + "/Leader", "");
-    const auto is_box = [&](const std::string &body)
-    { return file.value("Bodies/" + body + "/Geometry", "box") == "box"; };
+    const auto is_filled = [&](const std::string &body)
+    {
+      const std::string entry = "Bodies/" + body + "/Geometry";
+      return make_shape(entry, file.value(entry, "box"))->fills_bounds();
+    };
     if (file.value(path + "/Type", "") == "tie" &&
-        !(is_box(follower) && is_box(leader)))
+        !(is_filled(follower) && is_filled(leader)))
     {
       excused.insert({follower, leader});
       excused.insert({leader, follower});
