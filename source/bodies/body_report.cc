@@ -1,3 +1,4 @@
+// Output fields and measures that all bodies with material points have.
 #include "sabot/bodies/body_report.h"
 
 #include "sabot/base/exact_sum.h"
@@ -10,8 +11,8 @@ namespace sabot
 {
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
-                         const std::size_t n, const std::vector<double> &stress,
-                         const std::vector<double> &state,
+                         const std::size_t n, const double *const stress,
+                         const double *const state,
                          const std::vector<StateVariable> &variables)
 {
   const auto stress_at = [&](const std::size_t i, const unsigned int c)
@@ -79,14 +80,14 @@ BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
 }
 
 const double *find_state(const std::vector<StateVariable> &variables,
-                         const std::vector<double> &state, const std::size_t n,
+                         const double *const state, const std::size_t n,
                          const std::string &name)
 {
   std::size_t first = 0;
   for (const StateVariable &variable : variables)
   {
     if (variable.name == name)
-      return state.data() + first * n;
+      return state + first * n;
     first += variable.is_tensor ? n_symmetric : 1;
   }
   return nullptr;

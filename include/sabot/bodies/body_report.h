@@ -15,8 +15,8 @@ namespace sabot
     arrays [component][n], as output fields. */
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
-                         const std::size_t n, const std::vector<double> &stress,
-                         const std::vector<double> &state,
+                         const std::size_t n, const double *stress,
+                         const double *state,
                          const std::vector<StateVariable> &variables);
 
 /** A field with value(item, component) for @p n items. */
@@ -41,7 +41,7 @@ BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
 
 /** Start of the array of a scalar state variable in [state][n], or null. */
 const double *find_state(const std::vector<StateVariable> &variables,
-                         const std::vector<double> &state, const std::size_t n,
+                         const double *state, const std::size_t n,
                          const std::string &name);
 
 /** Number of arrays that the state variables take. */

@@ -355,7 +355,7 @@ OutputMesh FemBody::output_mesh() const
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
   add_material_fields(out.cell_fields, owned, cells->size(),
-                      cells->cell_stress(), cells->cell_states(),
+                      cells->cell_stress().data(), cells->cell_states().data(),
                       cells->states());
   add_field(out.cell_fields, "body", "1", owned.size(), 1,
             [&](std::size_t, unsigned int) { return double(id); });

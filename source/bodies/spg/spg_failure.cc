@@ -20,7 +20,7 @@ void SpgBody::update_failure_measure()
   {
   case Criterion::effective_plastic_strain:
   {
-    const double *const eps = state_array("effective plastic strain");
+    const double *const eps = points.state("effective plastic strain");
     std::copy(eps, eps + n, failure_measure.begin());
     break;
   }
