@@ -45,14 +45,14 @@ struct Bracket
 };
 } // namespace
 
-MaterialPoints::MaterialPoints(const Material &material) : material(material)
+FlowStressProbe::FlowStressProbe(const Material &material) : material(material)
 {
   for (const StateVariable &variable : material.state_variables())
     is_tensor.insert(is_tensor.end(), variable.is_tensor ? n_symmetric : 1,
                      variable.is_tensor);
 }
 
-std::vector<double> MaterialPoints::flow_stress() const
+std::vector<double> FlowStressProbe::flow_stress() const
 {
   constexpr double never = 1e300; // [Pa]
   std::vector<double> result(pressures.size(),
@@ -64,9 +64,9 @@ std::vector<double> MaterialPoints::flow_stress() const
   return result;
 }
 
-void MaterialPoints::flow_stress_of_batch(const std::size_t begin,
-                                          const std::size_t n,
-                                          double *const result) const
+void FlowStressProbe::flow_stress_of_batch(const std::size_t begin,
+                                           const std::size_t n,
+                                           double *const result) const
 {
   const std::size_t n_states = is_tensor.size();
   const double no_strain[max_batch_points] = {};
