@@ -71,10 +71,15 @@ void print_section(const ordered_json &tree, const std::string &path,
 }
 } // namespace
 
+void print_tables(const Parameters &prm, std::ostream &out)
+{
+  print_section(declared_tree(prm), "", out);
+}
+
 void print_manual(const Parameters &prm, std::ostream &out)
 {
   out << "# Parameters\n";
-  print_section(declared_tree(prm), "", out);
+  print_tables(prm, out);
 }
 
 void print_parameters(const Parameters &prm, const std::string &format,

@@ -63,7 +63,11 @@ private:
   std::vector<std::string> said; // about them
 };
 
-/** The declared entries as markdown: name, default, meaning, allowed values. */
+/** The declared entries as tables in Markdown, one for each subsection: name,
+    default, meaning, allowed values. */
+void print_tables(const Parameters &prm, std::ostream &out);
+
+/** The same below a title. */
 void print_manual(const Parameters &prm, std::ostream &out);
 
 /** The declared entries in a @p format that deal.II offers: "prm", "json" or
