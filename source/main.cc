@@ -5,15 +5,18 @@
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 #include "sabot/study/pictures.h"
+#include "sabot/study/process_pool.h"
 #include "sabot/study/study.h"
 #include "sabot/study/study_file.h"
-#include "verification/problem.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 
 namespace
@@ -24,9 +27,8 @@ struct Arguments
 {
   std::string scene, folder = "results", format = "markdown";
   std::vector<std::string> overrides;
-  std::vector<std::string> problems;
   std::string json_file;
-  bool quiet = false, list = false, is_about_studies = false;
+  bool quiet = false, is_about_studies = false;
   StudyArguments study;
   PictureArguments picture;
 };
@@ -135,18 +137,22 @@ ExitCode describe_parameters(const Arguments &arguments)
   return ExitCode::done;
 }
 
-ExitCode run_verification(const Arguments &arguments)
+/** Become sabot-verify, a program of its own beside this one: what only
+    compares with exact answers is not part of what users run. */
+ExitCode start_verification(std::vector<std::string> words)
 {
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    throw InputError("", "`sabot verify` runs on one rank");
-  if (arguments.list)
-  {
-    list_problems();
-    return ExitCode::done;
-  }
-  return verify(arguments.problems, arguments.json_file)
-             ? ExitCode::done
-             : ExitCode::physics_failed;
+  const std::string program =
+      std::filesystem::path(own_program()).parent_path() / "sabot-verify";
+  if (!std::filesystem::exists(program))
+    throw InputError("", "\"" + program +
+                             "\" is missing; scripts/build.sh builds it");
+  words.insert(words.begin(), program);
+  std::vector<char *> arguments;
+  for (std::string &word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw IOError("cannot start \"" + program + "\"");
 }
 
 /** Run a command; what it throws becomes a message and an exit code. */
@@ -266,11 +272,8 @@ int main(int argc, char **argv)
                        "Of study files instead of scenes");
   CLI::App *const verification = app.add_subcommand(
       "verify", "Compare verification problems with exact answers");
-  verification->add_option("name", arguments.problems,
-                           "Problems or labels; none: all quick ones");
-  verification->add_flag("--list", arguments.list, "Name the problems");
-  verification->add_option("--json", arguments.json_file,
-                           "Write the checks to this file");
+  verification->set_help_flag();
+  verification->prefix_command();
   try
   {
     app.parse(argc, argv);
@@ -286,6 +289,9 @@ int main(int argc, char **argv)
   if (*picture)
     return report_errors(true,
                          [&]() { return draw_picture(arguments.picture); });
+  if (*verification)
+    return report_errors(
+        true, [&]() { return start_verification(verification->remaining()); });
 
   // What exceeds a limit on files is an error of the write, as a full disk is.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -295,10 +301,9 @@ int main(int argc, char **argv)
   return report_errors(speaks,
                        [&]()
                        {
-                         return *parameters     ? describe_parameters(arguments)
-                                : *verification ? run_verification(arguments)
-                                : *resume       ? resume_run(arguments)
-                                : *plan         ? plan_scene(arguments)
+                         return *parameters ? describe_parameters(arguments)
+                                : *resume   ? resume_run(arguments)
+                                : *plan     ? plan_scene(arguments)
                                         : run_scene(arguments, bool(*check));
                        });
 }
