@@ -19,6 +19,7 @@ ALLOWED = {
     "base": {"kernels"},
     "materials": {"base", "kernels"},
     "geometry": {"base", "kernels"},
+    "geometry/shapes": {"base", "kernels", "geometry"},
     "bodies": {"base", "kernels", "materials"},
     "bodies/fem": {"base", "kernels", "materials", "geometry", "bodies"},
     "bodies/rigid": {"base", "kernels", "materials", "geometry", "bodies"},

@@ -1,3 +1,4 @@
+// Output fields and measures that all bodies with material points have.
 #include "sabot/bodies/body_report.h"
 
 #include "sabot/base/exact_sum.h"
@@ -10,8 +11,8 @@ namespace sabot
 {
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
-                         const std::size_t n, const std::vector<double> &stress,
-                         const std::vector<double> &state,
+                         const std::size_t n, const double *const stress,
+                         const double *const state,
                          const std::vector<StateVariable> &variables)
 {
   const auto stress_at = [&](const std::size_t i, const unsigned int c)
@@ -40,8 +41,8 @@ void add_material_fields(std::vector<OutputField> &fields,
     }
 }
 
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
-                       const std::vector<char> *const left_out)
+BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                           const std::vector<char> *const left_out)
 {
   ExactSum mass, momentum[3], kinetic;
   double top[6];
@@ -65,30 +66,28 @@ Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
   ExactSum::reduce({&mass, &momentum[0], &momentum[1], &momentum[2], &kinetic},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 6, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = {{"mass", "kg", mass.value()}};
-  const char axis[] = {'x', 'y', 'z'};
-  for (int d = 0; d < 3; ++d)
-    measures.push_back(
-        {std::string("velocity ") + axis[d], "m/s",
-         mass.value() > 0. ? momentum[d].value() / mass.value() : 0.});
-  measures.push_back({"kinetic energy", "J", kinetic.value()});
+  BodyMeasures measures;
+  measures.mass = mass.value();
+  measures.kinetic_energy = kinetic.value();
   for (int d = 0; d < 3; ++d)
   {
-    measures.push_back({std::string("minimum ") + axis[d], "m", -top[3 + d]});
-    measures.push_back({std::string("maximum ") + axis[d], "m", top[d]});
+    measures.velocity[d] =
+        mass.value() > 0. ? momentum[d].value() / mass.value() : 0.;
+    measures.low[d] = -top[3 + d];
+    measures.high[d] = top[d];
   }
   return measures;
 }
 
 const double *find_state(const std::vector<StateVariable> &variables,
-                         const std::vector<double> &state, const std::size_t n,
+                         const double *const state, const std::size_t n,
                          const std::string &name)
 {
   std::size_t first = 0;
   for (const StateVariable &variable : variables)
   {
     if (variable.name == name)
-      return state.data() + first * n;
+      return state + first * n;
     first += variable.is_tensor ? n_symmetric : 1;
   }
   return nullptr;

@@ -1,7 +1,7 @@
+// Flow stress and fracture strain after Johnson and Cook.
 #include "sabot/materials/johnson_cook.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+#include "sabot/base/registry.h"
 #include "sabot/kernels/stress_update.h"
 
 namespace sabot
@@ -105,7 +105,7 @@ void declare(Parameters &prm)
         "at high triaxiality.");
 }
 
-JohnsonCookParameters parse(Parameters &prm, const std::string &path,
+JohnsonCookParameters parse(const Parameters &prm, const std::string &path,
                             const EquationOfState &eos)
 {
   JohnsonCookParameters p;
@@ -144,18 +144,16 @@ JohnsonCookParameters parse(Parameters &prm, const std::string &path,
   return p;
 }
 
-const RegisterMaterial registered(
+const Registry<Material>::Add registered(
     {"Johnson-Cook",
      "strain, strain-rate and thermal softening with adiabatic heating, "
      "optional damage.",
      declare,
-     [](Parameters &prm, const std::string &path,
+     [](const Parameters &prm, const std::string &path,
         const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
-       prm.enter_subsection("Johnson-Cook");
-       const JohnsonCookParameters p = parse(prm, path + "/Johnson-Cook", *eos);
-       prm.leave_subsection();
-       return std::make_unique<JohnsonCook>(elastic, p, eos);
+       return std::make_unique<JohnsonCook>(elastic, parse(prm, path, *eos),
+                                            eos);
      }});
 } // namespace
 } // namespace sabot

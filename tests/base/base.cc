@@ -66,9 +66,9 @@ TEST(Quantity, units_dimensions_and_ranges)
   EXPECT_FALSE(three.match("1 mm, 2 mm, "));
 
   Parameters prm;
-  prm.declare_entry("Stress", "324 MPa", quantity(Dimension::pressure));
+  prm.declare_entry("Stress", "324 MPa", quantity(Dimension::pressure), "");
   prm.declare_entry("Size", "1 mm, 2 cm",
-                    quantities(Dimension::length, 2, 2, 0., 1.));
+                    quantities(Dimension::length, 2, 2, 0., 1.), "");
   EXPECT_DOUBLE_EQ(get_quantity(prm, "Stress"), 324e6);
   EXPECT_DOUBLE_EQ(get_quantities(prm, "Size")[1], 0.02);
 }
@@ -86,11 +86,11 @@ protected:
   {
     char name[] = "/tmp/sabot-test-XXXXXX";
     folder = mkdtemp(name);
-    prm.declare_entry("Title", "", any_text());
+    prm.declare_entry("Title", "", any_text(), "");
     prm.enter_subsection("Bodies");
     prm.enter_subsection("plate");
-    prm.declare_entry("Cell size", "1 mm", quantity(Dimension::length));
-    prm.declare_entry("Kind", "FEM", one_of("FEM|SPG"));
+    prm.declare_entry("Cell size", "1 mm", quantity(Dimension::length), "");
+    prm.declare_entry("Kind", "FEM", one_of("FEM|SPG"), "");
     prm.leave_subsection();
     prm.leave_subsection();
   }

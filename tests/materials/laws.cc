@@ -57,14 +57,14 @@ TEST(Elastic, rigid_rotation_turns_the_stress_only)
 
 TEST(Laws, first_yield_is_where_they_say)
 {
-  EXPECT_GT(Elastic(aluminum()).initial_yield_stress(), 1e100);
+  EXPECT_FALSE(Elastic(aluminum()).initial_yield_stress());
   const HardeningPlasticity hardening(aluminum(),
                                       {aluminum_yield_stress(), 150e6, 0.5});
   const JohnsonCook johnson(aluminum(), johnson_cook());
   for (const Material *law : {static_cast<const Material *>(&hardening),
                               static_cast<const Material *>(&johnson)})
   {
-    const double Y = law->initial_yield_stress();
+    const double Y = law->initial_yield_stress().value();
     EXPECT_NEAR(Y, aluminum_yield_stress(), 0.001 * aluminum_yield_stress());
     // The last elastic and the first plastic of small steps bracket it.
     Point point(*law);

@@ -15,8 +15,8 @@ namespace sabot
     arrays [component][n], as output fields. */
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
-                         const std::size_t n, const std::vector<double> &stress,
-                         const std::vector<double> &state,
+                         const std::size_t n, const double *stress,
+                         const double *state,
                          const std::vector<StateVariable> &variables);
 
 /** A field with value(item, component) for @p n items. */
@@ -36,12 +36,12 @@ void add_field(std::vector<OutputField> &fields, const std::string &name,
 /** Mass, velocity of the centre of mass, kinetic energy and bounding box of
     all owned nodes that are not left out ([n_owned], may be null). Collective,
     the same for every number of ranks. */
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
-                       const std::vector<char> *left_out = nullptr);
+BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                           const std::vector<char> *left_out = nullptr);
 
 /** Start of the array of a scalar state variable in [state][n], or null. */
 const double *find_state(const std::vector<StateVariable> &variables,
-                         const std::vector<double> &state, const std::size_t n,
+                         const double *state, const std::size_t n,
                          const std::string &name);
 
 /** Number of arrays that the state variables take. */

@@ -50,7 +50,7 @@ public:
   }
   double specific_heat() const override { return thermal.specific_heat; }
   double conductivity() const override { return thermal.conductivity; }
-  double initial_yield_stress() const override
+  std::optional<double> initial_yield_stress() const override
   {
     double slope;
     return flow.stress(flow.at(thermal.initial_temperature, 0., 1.), 0., 0., 1.,
