@@ -11,23 +11,6 @@ namespace
 {
 using namespace sabot;
 
-std::shared_ptr<Material> johnson_cook()
-{
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.reference_strain_rate = 1.;
-  p.room_temperature = p.initial_temperature = 294.;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  p.taylor_quinney = 0.9;
-  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33},
-                                       p);
-}
-
 void step(benchmark::State &state, const SpgOptions &options,
           const double speed, const bool plastic)
 {
@@ -36,7 +19,7 @@ void step(benchmark::State &state, const SpgOptions &options,
   world.bodies.push_back(std::make_unique<SpgBody>(
       "block", 0,
       perturbed_cloud({{(n - 1) * h, (n - 1) * h, (n - 1) * h}}, h, 0.1),
-      plastic ? johnson_cook() : elastic(), options));
+      plastic ? metal("al6061-t6") : elastic(), options));
   world.distribute();
   auto &body = *world.bodies[0];
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)

@@ -14,12 +14,7 @@ inline double balance(const World &world)
     body->add_energies(e);
   for (const auto &coupling : world.couplings)
     coupling->add_energies(e);
-  ExactSum total = e.kinetic;
-  for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
-                               &e.contact, &e.friction, &e.eroded, &e.tie})
-    total.add(*part);
-  total.subtract(e.external);
-  return total.value();
+  return e.total().value();
 }
 
 /** Follows the largest deviation of the balance from its first value, over the
@@ -62,22 +57,6 @@ inline bool is_finite(const World &world)
           return false;
   }
   return true;
-}
-
-/** 6061-T6 of prm/materials/al6061-t6.prm. */
-inline std::shared_ptr<JohnsonCook>
-aluminium_6061(const ElasticBase::Eos &eos = {})
-{
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33}, p,
-                                       eos);
 }
 } // namespace sabot
 

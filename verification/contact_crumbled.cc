@@ -19,9 +19,7 @@ std::unique_ptr<SpgBody> block(const std::string &name, const int id,
   options.initial_velocity = {{0., 0., velocity}};
   if (crumbles)
     options.set_critical_plastic_strain(0.1);
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 1.});
+  const auto metal = hardening_aluminum();
   return std::make_unique<SpgBody>(
       name, id, make_box_cloud(centre, size, spacing), metal, options);
 }
@@ -58,7 +56,7 @@ double shared_part(const SpgBody &body, const SpgBody &other)
   const NodalState &mine = body.nodes(), &its = other.nodes();
   std::vector<VolumePoint> volume;
   for (std::size_t j = 0; j < its.n_owned; ++j)
-    volume.push_back(other.volume_point(j));
+    volume.push_back(other.particles()->volume_point(j));
   double sum = 0.;
   for (std::size_t i = 0; i < mine.n_owned; ++i)
     for (std::size_t j = 0; j < its.n_owned; ++j)

@@ -27,9 +27,7 @@ Collision collide(const double stiffness_scale)
   SpgOptions options;
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
   options.set_critical_plastic_strain(0.1);
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 1.});
+  const auto metal = hardening_aluminum();
   world.bodies.push_back(std::make_unique<SpgBody>(
       "bar", 0, make_box_cloud({{0, 0, 0}}, {{11e-3, 3e-3, 3e-3}}, spacing),
       metal, options));
@@ -50,10 +48,11 @@ Collision collide(const double stiffness_scale)
     n.velocity[i] = vec(x > 0. ? 60. : -60., 0., 0.);
   }
   world.integrator.initialize();
-  while (body.fragments().size() < 2 && world.integrator.time < 20e-6)
+  while (body.fragments()->connected_pieces().size() < 2 &&
+         world.integrator.time < 20e-6)
     world.advance(0.5);
   Collision result;
-  result.n_pieces = body.fragments().size();
+  result.n_pieces = body.fragments()->connected_pieces().size();
   // The break is over when nothing fails any more.
   const double broken = world.integrator.time;
   while (world.integrator.time < 2. * broken)

@@ -1,4 +1,5 @@
 #include "sabot/geometry/mesh_extraction.h"
+#include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 

@@ -9,13 +9,11 @@ namespace sabot
 namespace
 {
 constexpr double h = 1e-3;
-const ElasticConstants aluminium{2700., 68.9e9, 0.33};
 
 /** J2 plasticity without hardening. */
-std::shared_ptr<Material> perfect(const double yield)
+std::shared_ptr<const Material> perfect(const double yield)
 {
-  return std::make_shared<HardeningPlasticity>(
-      aluminium, HardeningParameters{yield, 0., 1.});
+  return hardening_aluminum(yield, 0.);
 }
 
 SpgOptions inviscid()
@@ -97,7 +95,7 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
 std::vector<Check> criteria()
 {
   std::vector<Check> checks;
-  const double K = aluminium.bulk_modulus(), G = aluminium.shear_modulus();
+  const double K = aluminum().bulk_modulus(), G = aluminum().shear_modulus();
   const auto uniaxial = [](const double e)
   {
     Mat A = Mat::identity();
@@ -122,7 +120,7 @@ std::vector<Check> criteria()
     // eps_p = e - Y/(3 G) in isochoric stretching without hardening.
     SpgOptions o = inviscid();
     o.set_critical_plastic_strain(0.1);
-    const double Y = 324e6;
+    const double Y = aluminum_yield_stress();
     add_criterion(checks, "plastic strain 0.1", o, perfect(Y),
                   0.1 + Y / (3. * G), "e - Y/(3 G)", isochoric);
   }
@@ -194,7 +192,7 @@ std::vector<Check> no_healing()
     o.kernel_update_interval = 4;
     o.kernel_update_strain = 0.;
     o.set_critical_plastic_strain(0.1);
-    SpgBody &body = add_block(world, o, perfect(324e6));
+    SpgBody &body = add_block(world, o, perfect(aluminum_yield_stress()));
     NodalState &n = body.nodes();
     // The particles beside the middle plane are strained beyond the limit.
     for (std::size_t i = 0; i < n.n_owned; ++i)
@@ -301,7 +299,7 @@ std::vector<Check> weak_particles()
   World world;
   SpgOptions o = inviscid();
   o.set_critical_plastic_strain(0.1);
-  const double Y = 324e6;
+  const double Y = aluminum_yield_stress();
   SpgBody &body = add_block(world, o, perfect(Y));
   NodalState &n = body.nodes();
   // The layer before the last comes loose: the last is a sheet.
@@ -333,7 +331,7 @@ std::vector<Check> weak_particles()
   // The sheet is held in its plane and free across: uniaxial strain there.
   double strained = 0., extra = -1e300, pressed = 0.;
   const double expected =
-      aluminium.bulk_modulus() * std::log(A(1, 1)) - 2. / 3. * Y;
+      aluminum().bulk_modulus() * std::log(A(1, 1)) - 2. / 3. * Y;
   for (const std::size_t i : weak)
   {
     pressed = std::min(pressed, body.stress(1, i));

@@ -6,7 +6,7 @@
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/integrator/central_difference.h"
-#include "sabot/materials/laws.h"
+#include "verification/metals.h"
 
 #include <cmath>
 #include <random>
@@ -57,9 +57,7 @@ struct World
       body->add_energies(e);
     for (auto &coupling : couplings)
       coupling->add_energies(e);
-    ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
-                      &e.contact, &e.friction, &e.eroded},
-                     MPI_COMM_WORLD);
+    e.reduce(MPI_COMM_WORLD);
     return {{e.kinetic.value(),
              e.internal.value() + e.stabilization.value() +
                  e.hourglass.value() + e.eroded.value(),
@@ -91,17 +89,9 @@ struct World
   }
 };
 
-inline std::shared_ptr<Material> elastic(const double nu = 0.33)
-{
-  return std::make_shared<Elastic>(ElasticConstants{2700., 68.9e9, nu});
-}
-
 inline double measure(const Body &body, const std::string &name)
 {
-  for (const Measure &m : body.measure())
-    if (m.name == name)
-      return m.value;
-  return std::nan("");
+  return body.measure().find(name);
 }
 
 /** Random velocities of about @p speed on all owned nodes. */

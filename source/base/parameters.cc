@@ -227,6 +227,12 @@ std::vector<double> get_quantities(const Parameters &prm,
   return values;
 }
 
+std::array<double, 3> get_vector(const Parameters &prm, const std::string &name)
+{
+  const std::vector<double> v = get_quantities(prm, name);
+  return {{v[0], v[1], v[2]}};
+}
+
 std::optional<double> read_quantity(const std::string &text)
 {
   for (int d = 0; d <= static_cast<int>(Dimension::conductivity); ++d)

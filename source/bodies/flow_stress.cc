@@ -54,7 +54,9 @@ FlowStressProbe::FlowStressProbe(const Material &material) : material(material)
 
 std::vector<double> FlowStressProbe::flow_stress() const
 {
-  std::vector<double> result(pressures.size(), material.initial_yield_stress());
+  constexpr double never = 1e300; // [Pa]
+  std::vector<double> result(pressures.size(),
+                             material.initial_yield_stress().value_or(never));
   for (std::size_t begin = 0; begin < result.size(); begin += max_batch_points)
     flow_stress_of_batch(begin,
                          std::min(max_batch_points, result.size() - begin),

@@ -1,3 +1,4 @@
+// Zones of particles: what they contain, and the cut through the mesh.
 #include "sabot/geometry/carving.h"
 
 #include "sabot/base/error.h"
@@ -95,6 +96,16 @@ bool ZoneShape::contains(const std::array<double, 3> &point) const
       return false;
   }
   return square < 1.;
+}
+
+bool ZoneShape::is_coaxial(const unsigned int line_axis,
+                           const std::array<double, 3> &point) const
+{
+  bool same = axis == int(line_axis);
+  for (unsigned int d = 0; d < 3; ++d)
+    same = same &&
+           (d == line_axis || std::abs(centre[d] - point[d]) < 1e-6 * size[d]);
+  return same;
 }
 
 CarvedMesh carve(const HexMesh &mesh, const ZoneShape &shape,

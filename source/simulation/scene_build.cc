@@ -51,8 +51,7 @@ void Scene::build_materials()
   }
 }
 
-std::vector<Scene::Carving>
-Scene::find_carvings(const std::vector<std::string> &names)
+std::vector<Carving> Scene::find_carvings(const std::vector<std::string> &names)
 {
   std::vector<Carving> carvings;
   for (const std::string &name : names)
@@ -78,28 +77,18 @@ Scene::find_carvings(const std::vector<std::string> &names)
     Carving carving;
     carving.body = from;
     carving.zone = name;
-    carving.shape.centre = get_vector(prm, "Centre");
-    const std::string geometry = prm.get("Geometry");
-    if (geometry == "box")
-      carving.shape.size = get_vector(prm, "Size");
-    else if (geometry == "cylinder")
-    {
-      carving.shape.axis = prm.get("Axis")[0] - 'x';
-      carving.shape.size.fill(2. * get_quantity(prm, "Radius"));
-      carving.shape.size[carving.shape.axis] = get_quantity(prm, "Length");
-      if (prm.get("Sector") != "full")
-        throw InputError(path + "/Sector",
-                         "has no effect: the zone has the cells of the body "
-                         "that it is carved from; remove the entry");
-    }
-    else
+    const auto shape = make_shape(path + "/Geometry", prm.get("Geometry"));
+    const std::optional<ZoneShape> zone = shape->zone(prm, path);
+    if (!zone)
       throw InputError(path + "/Geometry",
-                       "is " + geometry +
+                       "is " + prm.get("Geometry") +
                            "; a zone that is carved from a body "
                            "is a box or a cylinder");
+    carving.shape = *zone;
+    const std::string host = "Bodies/" + from + "/Geometry";
     carving.follows_mesh =
-        geometry != "box" ||
-        file.value("Bodies/" + from + "/Geometry", "box") != "box";
+        !shape->has_lattice() ||
+        !make_shape(host, file.value(host, "box"))->has_lattice();
     carvings.push_back(carving);
   }
   return carvings;
@@ -125,37 +114,36 @@ void Scene::follow_spacing(const std::string &path, const double spacing)
 std::unique_ptr<Body>
 Scene::make_particles(const std::string &name,
                       std::shared_ptr<const Material> material,
-                      BodyMesh *const zone)
+                      NamedMesh *const zone)
 {
   const std::string path = "Bodies/" + name;
-  const std::string geometry = prm.get("Geometry");
+  const auto shape = make_shape(path + "/Geometry", prm.get("Geometry"));
   std::vector<double> spacing = get_quantities(prm, "Nodal spacing");
   if (spacing.size() == 2 ||
-      (spacing.size() == 3 && (zone != nullptr || geometry != "box")))
+      (spacing.size() == 3 && (zone != nullptr || !shape->has_lattice())))
     throw InputError(path + "/Nodal spacing",
                      "has " + std::to_string(spacing.size()) +
                          " values; give one, or three for a box with a lattice "
                          "of its own");
-  std::vector<std::string> faces = box_faces;
+  std::vector<std::string> faces(box_faces.begin(), box_faces.end());
   ParticleCloud cloud;
   if (zone != nullptr)
   {
     faces = zone->faces;
     cloud = make_mesh_cloud(zone->mesh);
   }
-  else if (geometry == "box")
+  else if (shape->has_lattice())
   {
     if (spacing.size() == 1)
       spacing = {spacing[0], spacing[0], spacing[0]};
-    cloud = make_box_cloud(get_vector(prm, "Centre"), get_vector(prm, "Size"),
-                           {{spacing[0], spacing[1], spacing[2]}});
+    cloud = shape->lattice(prm, {{spacing[0], spacing[1], spacing[2]}});
   }
   else
   {
-    BodyMesh mesh = make_mesh(path, spacing[0], nullptr);
+    NamedMesh mesh = make_mesh(path, spacing[0], nullptr);
     faces = mesh.faces;
     cloud = make_mesh_cloud(mesh.mesh);
-    if (geometry == "file")
+    if (!shape->follows_cell_size())
       follow_spacing(path, cloud.spacing[0]);
   }
   SpgOptions options = SpgOptions::parse(prm, path);
@@ -188,7 +176,7 @@ void Scene::build_bodies()
   const std::vector<std::string> names = split_names(prm.get("List of bodies"));
   const std::vector<Carving> carvings = find_carvings(names);
   // Meshes of bodies whose cells give way to particles, by body and by zone.
-  std::map<std::string, BodyMesh> rest, zone_meshes;
+  std::map<std::string, NamedMesh> rest, zone_meshes;
   for (const Carving &c : carvings)
   {
     if (!c.follows_mesh)
@@ -197,12 +185,13 @@ void Scene::build_bodies()
     {
       const Entered entered(prm, "Bodies", c.body);
       cell_size = get_quantity(prm, "Cell size");
-      BodyMesh whole = make_mesh("Bodies/" + c.body, cell_size, &c);
+      NamedMesh whole = make_mesh("Bodies/" + c.body, cell_size, &c);
       CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
                                "Bodies/" + c.zone + "/Centre");
       rest[c.body] = {std::move(parts.rest), whole.faces};
       zone_meshes[c.zone] = {std::move(parts.zone), whole.faces};
-      if (prm.get("Geometry") == "file")
+      if (!make_shape("Bodies/" + c.body + "/Geometry", prm.get("Geometry"))
+               ->follows_cell_size())
         cell_size = make_mesh_cloud(zone_meshes[c.zone].mesh).spacing[0];
     }
     const Entered entered(prm, "Bodies", c.zone);
@@ -232,7 +221,7 @@ void Scene::build_bodies()
         std::find_if(carvings.begin(), carvings.end(),
                      [&](const Carving &c) { return c.body == name; });
     const auto carved = rest.find(name);
-    BodyMesh made =
+    NamedMesh made =
         carved != rest.end()
             ? std::move(carved->second)
             : make_mesh(path, get_quantity(prm, "Cell size"),

@@ -1,7 +1,9 @@
+// What a scene file may set: every entry with its meaning.
 #include "sabot/base/parameters.h"
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
+#include "sabot/output/output.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -46,70 +48,12 @@ void declare_top(Parameters &prm)
                     "Names of the quantities of interest in result.json.");
 }
 
-void declare_shape(Parameters &prm, const std::string &geometry)
-{
-  const Pattern length = quantity(Dimension::length, 1e-9, 1e3);
-  if (geometry == "box")
-  {
-    prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
-                      quantities(Dimension::length, 3, 3, 1e-9, 1e3),
-                      "Edge lengths of the box.");
-    return;
-  }
-  if (geometry == "file")
-  {
-    prm.declare_entry("Mesh file", "", any_text(),
-                      "Hexahedra from gmsh (.msh), Abaqus (.inp) or VTK "
-                      "(.vtk), looked up beside the parameter file; its origin "
-                      "is put at the centre. Faces are named by the file's "
-                      "boundary ids.");
-    prm.declare_entry("Mesh unit", "1 m", length,
-                      "Length of a unit of the file's coordinates.");
-    prm.declare_entry("Mesh material id", "-1", integer(-1),
-                      "Only cells with this material id of the file; -1: all.");
-    return;
-  }
-  prm.declare_entry("Radius", "1 mm", length,
-                    "Radius of the " + geometry + ".");
-  if (geometry == "sphere")
-    return;
-  if (geometry == "projectile")
-  {
-    prm.declare_entry("Length", "1 mm", length,
-                      "Length of the shaft, without the nose.");
-    prm.declare_entry("Axis", "z", one_of("x|y|z|-x|-y|-z"),
-                      "Where the nose points.");
-    prm.declare_entry("Nose", "ogive", one_of("ogive|conical|spherical"),
-                      "Shape of the nose; the ogive is tangent to the shaft.");
-    prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
-    return;
-  }
-  prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
-  prm.declare_entry("Axis", "z", one_of("x|y|z"),
-                    "Direction of the cylinder's axis.");
-  prm.declare_entry("Core radius", "0 m", quantity(Dimension::length, 0., 1e3),
-                    "Radius of the middle part that has cells of the cell "
-                    "size; 0: 0.55 of the radius.");
-  prm.declare_entry("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
-                    "Thickness of one ring of cells over the last, outwards.");
-  prm.declare_entry("Coarsest cell size", "1 km", length,
-                    "Rings grow up to this thickness.");
-  prm.declare_entry("Sector", "full", one_of("full|half|quarter"),
-                    "Part of the cylinder that is modelled: half keeps the "
-                    "positive side of the axis that follows the cylinder's "
-                    "(x after z), quarter that of the other one, too. The cut "
-                    "planes are called as a box's faces, e.g. -x, -y.");
-}
-
-/** The names of a geometry's faces. */
+/** The names of a shape's faces; nothing for one that is not there, of which
+    reading the file will tell. */
 std::string face_names(const std::string &geometry)
 {
-  return geometry == "box"        ? "-x, +x, -y, +y, -z, +z"
-         : geometry == "cylinder" ? "lower, upper, side and the cut planes of "
-                                    "a sector"
-         : geometry == "sphere"   ? "surface"
-         : geometry == "projectile" ? "end, side"
-                                    : "the boundary ids of the file";
+  const auto *const shape = Registry<Shape>::find(geometry);
+  return shape == nullptr ? "" : shape->make()->face_names();
 }
 
 void declare_body(Parameters &prm, const std::string &discretization,
@@ -118,11 +62,10 @@ void declare_body(Parameters &prm, const std::string &discretization,
   prm.declare_entry("Discretization", "FEM", one_of("FEM|SPG|rigid"),
                     "FEM: hexahedra; SPG: smoothed-particle-Galerkin "
                     "particles; rigid: hexahedra that do not deform.");
-  prm.declare_entry("Geometry", "box",
-                    one_of("box|cylinder|sphere|projectile|file"),
-                    "Shape of the body; projectile: a cylinder with a conical "
-                    "or ogival nose; file: a mesh of hexahedra. The entries of "
-                    "the shapes are the same for FEM, SPG and rigid bodies.");
+  Registry<Shape>::declare_choice(
+      prm, "Geometry", "box",
+      "Shape of the body, with the same entries for FEM, SPG and rigid "
+      "bodies.");
   prm.declare_entry("Material", "", any_text(),
                     "Name of a subsection of Materials.");
   const Pattern vector3 = quantities(Dimension::length, 3, 3, -1e3, 1e3);
@@ -131,7 +74,7 @@ void declare_body(Parameters &prm, const std::string &discretization,
   prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
                     quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
-  declare_shape(prm, geometry);
+  Registry<Shape>::declare_entries(prm, geometry);
   if (discretization == "rigid")
   {
     prm.declare_entry("Cell size", "1 mm",
@@ -171,26 +114,8 @@ void declare_body(Parameters &prm, const std::string &discretization,
                       quantity(Dimension::length, 1e-9, 1e2),
                       "Edge of the cells; next to a carved zone, where the "
                       "mesh is graded.");
-    if (geometry == "box")
-    {
-      prm.declare_entry("Coarsest cell size", "1 km",
-                        quantity(Dimension::length, 1e-9, 1e3),
-                        "Where a zone is carved from the body or refined, "
-                        "cells grow away from it up to this size.");
-      prm.declare_entry("Growth ratio", "1.15",
-                        quantity(Dimension::none, 1., 3.),
-                        "Size of one cell over the last, away from the zone.");
-    }
-    if (geometry == "box")
-    {
-      prm.declare_entry("Refined zone size", "0 mm, 0 mm, 0 mm",
-                        quantities(Dimension::length, 3, 3, 0., 1e3),
-                        "Edge lengths of the part of the box that has cells of "
-                        "the cell size; 0: all of it.");
-      prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
-                        quantities(Dimension::length, 3, 3, -1e3, 1e3),
-                        "Position of its centre.");
-    }
+    if (const auto *const shape = Registry<Shape>::find(geometry))
+      shape->make()->declare_grading(prm);
     prm.declare_entry("Clamped faces", "", names,
                       "Faces held fixed, among " + face_names(geometry) + ".");
     prm.declare_entry("Driven faces", "", names,
@@ -249,15 +174,6 @@ void declare_coupling(Parameters &prm, const std::string &type)
                       quantity(Dimension::none, 0.1, 1.),
                       "Distance over spacing below which debris repels, unless "
                       "it was met closer.");
-}
-
-void declare_output(Parameters &prm)
-{
-  prm.declare_entry("Type", "VTU", one_of("VTU|history"),
-                    "VTU: fields of all bodies for ParaView; history: averages "
-                    "and energies in history.h5.");
-  prm.declare_entry("Interval", "5 us", quantity(Dimension::time, 1e-15, 1e3),
-                    "Time between two writes; the end is always written.");
 }
 
 void declare_quantity(Parameters &prm)
@@ -330,9 +246,11 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
                                      equation_of_state);
          Material::declare_parameters(prm, model, equation_of_state);
        });
-  each("Bodies",
-       {"<FEM box>", "<FEM cylinder>", "<FEM sphere>", "<FEM projectile>",
-        "<FEM file>", "<SPG box>"},
+  std::vector<std::string> bodies;
+  for (const auto &shape : Registry<Shape>::entries())
+    bodies.push_back("<FEM " + shape.name + ">");
+  bodies.push_back("<SPG box>");
+  each("Bodies", bodies,
        [&](const std::string &path, const std::string &name)
        {
          const bool manual = file == nullptr;
@@ -351,7 +269,11 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
                                    : read(path + "/Type", "contact"));
        });
   each("Outputs", {"<name>"},
-       [&](const auto &, const auto &) { declare_output(prm); });
+       [&](const std::string &path, const auto &)
+       {
+         Output::declare_parameters(
+             prm, file == nullptr ? "" : read(path + "/Type", "VTU"));
+       });
   each("Quantities", {"<name>"},
        [&](const auto &, const auto &) { declare_quantity(prm); });
 }

@@ -122,9 +122,7 @@ TEST(Tie, leaders_do_not_feel_bonds_that_failed)
   options.set_critical_plastic_strain(0.45);
   options.critical_stretch = 1.005;
   options.failure_check_interval = 1;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e9, 150e6, 1.});
+  const auto metal = hardening_aluminum(1e3 * aluminum_yield_stress(), 150e6);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "spg", 1, make_box_cloud({{2e-3, 0, 0}}, {{4e-3, 4e-3, 4e-3}}, 1e-3),
       metal, options));
@@ -322,9 +320,7 @@ TEST(SelfContact, two_failed_particles_meet_and_part)
   World world;
   SpgOptions options;
   options.set_critical_plastic_strain(0.01);
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{100e6, 0., 1.});
+  const auto metal = hardening_aluminum(100e6, 0.);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "bar", 0, make_box_cloud({{0, 0, 0}}, {{8e-3, 2e-3, 2e-3}}, 1e-3), metal,
       options));

@@ -3,6 +3,7 @@
 
 #include "sabot/base/dimension.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,7 +76,7 @@ public:
   Parameters &operator=(const Parameters &) = delete;
 
   void declare_entry(const std::string &name, const std::string &standard,
-                     const Pattern &pattern, const std::string &meaning);
+                     const Pattern &pattern, const std::string &meaning = "");
   void enter_subsection(const std::string &name);
   void leave_subsection();
 
@@ -128,6 +129,9 @@ std::optional<double> get_optional_quantity(const Parameters &prm,
 /** Values in SI units of an entry declared with quantities(). */
 std::vector<double> get_quantities(const Parameters &prm,
                                    const std::string &name);
+/** The first three of them. */
+std::array<double, 3> get_vector(const Parameters &prm,
+                                 const std::string &name);
 /** SI value of a text that quantity() accepts for some dimension, e.g. "1.27
     mm"; nothing where there is no such dimension. */
 std::optional<double> read_quantity(const std::string &text);

@@ -15,6 +15,19 @@ struct ZoneShape
   int axis = -1;                              // of a cylinder; -1: a box
 
   bool contains(const std::array<double, 3> &point) const;
+  /** Whether it is a cylinder along the @p line_axis through @p point. */
+  bool is_coaxial(const unsigned int line_axis,
+                  const std::array<double, 3> &point) const;
+};
+
+/** A part cut out of a FEM body for particles. */
+struct Carving
+{
+  std::string body, zone; // names
+  ZoneShape shape;
+  /** Whether the particles are nodes of the body's mesh; else the body is a box
+      that is meshed around the zone, and the zone has a lattice of its own. */
+  bool follows_mesh = false;
 };
 
 /** A mesh in two parts that share the nodes between them. */

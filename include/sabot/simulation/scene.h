@@ -4,7 +4,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
-#include "sabot/geometry/carving.h"
+#include "sabot/geometry/shape.h"
 #include "sabot/materials/material.h"
 
 #include "sabot/base/parameters.h"
@@ -103,16 +103,14 @@ public:
   static void declare(Parameters &prm, const ParameterFile *file);
 
 private:
-  struct Carving;
-  struct BodyMesh;
   void read_settings();
   void build_materials();
   void build_bodies();
   std::vector<Carving> find_carvings(const std::vector<std::string> &names);
   /** Mesh of the body whose subsection is entered, around or with the cells of
       the zone that is @p carving. */
-  BodyMesh make_mesh(const std::string &path, const double cell_size,
-                     const Carving *carving);
+  NamedMesh make_mesh(const std::string &path, const double cell_size,
+                      const Carving *carving);
   /** Enter the spacing of particles that are the nodes of a mesh; refuse
      another one in the file. */
   void follow_spacing(const std::string &path, const double spacing);
@@ -121,7 +119,7 @@ private:
       that it replaces. */
   std::unique_ptr<Body> make_particles(const std::string &name,
                                        std::shared_ptr<const Material> material,
-                                       BodyMesh *zone);
+                                       NamedMesh *zone);
   void build_couplings();
   void build_outputs();
   void build_quantities();

@@ -4,21 +4,12 @@
 #include "sabot/base/error.h"
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/parameters.h"
-#include "sabot/geometry/carving.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sabot
 {
-inline std::array<double, 3> get_vector(const Parameters &prm,
-                                        const std::string &entry)
-{
-  const std::vector<double> v = get_quantities(prm, entry);
-  return {{v[0], v[1], v[2]}};
-}
-
 [[noreturn]] inline void unknown_name(const std::string &path,
                                       const std::string &what,
                                       const std::string &name,
@@ -31,9 +22,6 @@ inline std::array<double, 3> get_vector(const Parameters &prm,
     message += "; did you mean \"" + nearest_name(name, allowed) + "\"?";
   throw InputError(path, message);
 }
-
-inline const std::vector<std::string> box_faces = {"-x", "+x", "-y",
-                                                   "+y", "-z", "+z"};
 
 /** Numbers of the named faces (or axes) among the allowed ones. */
 inline std::vector<unsigned int>
@@ -55,34 +43,6 @@ face_ids(const std::string &path, const std::string &text,
   }
   return ids;
 }
-
-/** A part cut out of a FEM body for particles. */
-struct Scene::Carving
-{
-  std::string body, zone; // names
-  ZoneShape shape;
-  /** Whether the particles are nodes of the body's mesh; else the body is a box
-      that is meshed around the zone, and the zone has a lattice of its own. */
-  bool follows_mesh = false;
-
-  /** Whether the zone is a cylinder with the axis of another one. */
-  bool is_coaxial(const unsigned int axis,
-                  const std::array<double, 3> &centre) const
-  {
-    bool same = shape.axis == int(axis);
-    for (unsigned int d = 0; d < 3; ++d)
-      same = same && (d == axis || std::abs(shape.centre[d] - centre[d]) <
-                                       1e-6 * shape.size[d]);
-    return same;
-  }
-};
-
-/** A mesh and the names of its faces by boundary id. */
-struct Scene::BodyMesh
-{
-  HexMesh mesh;
-  std::vector<std::string> faces;
-};
 } // namespace sabot
 
 #endif

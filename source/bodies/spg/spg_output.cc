@@ -1,7 +1,6 @@
 // What an SPG body shows: energies, measures, fields, checkpoint, and its
 // particles as parts of a surface.
 #include "sabot/bodies/body_report.h"
-#include "sabot/bodies/spg/failure/fragments.h"
 #include "sabot/bodies/spg/spg_body.h"
 
 #include <algorithm>
@@ -21,7 +20,7 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
   }
 }
 
-Measures SpgBody::measure() const
+BodyMeasures SpgBody::measure() const
 {
   const double *const eps = points.state("effective plastic strain");
   const double *const temperature = points.state("temperature");
@@ -46,25 +45,50 @@ Measures SpgBody::measure() const
                     &bonds_all, &n_weak, &n_isolated, &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = measure_nodes(nodal_state, communicator);
-  measures.push_back({"internal energy", "J", internal.value()});
-  measures.push_back({"stabilisation energy", "J", stabilized.value()});
-  measures.push_back({"plastic work", "J", plastic.value()});
+  BodyMeasures measures = measure_nodes(nodal_state, communicator);
+  measures.internal_energy = internal.value();
+  measures.own.push_back({"stabilisation energy", "J", stabilized.value()});
+  measures.own.push_back({"plastic work", "J", plastic.value()});
   if (options.can_fail())
-    measures.push_back({"failure energy", "J", lost.value()});
-  measures.push_back({"plastic strain max", "1", top[0]});
+    measures.own.push_back({"failure energy", "J", lost.value()});
+  measures.own.push_back({"plastic strain max", "1", top[0]});
   const double n = bonds_all.value();
-  measures.push_back(
-      {"bonds broken fraction", "1", n > 0. ? bonds_failed.value() / n : 0.});
-  measures.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
-  measures.push_back({"weak particles", "1", n_weak.value()});
-  measures.push_back({"isolated particles", "1", n_isolated.value()});
+  measures.bonds_broken_fraction = n > 0. ? bonds_failed.value() / n : 0.;
+  measures.own.push_back(
+      {"bonds broken fraction", "1", measures.bonds_broken_fraction});
+  measures.own.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
+  measures.own.push_back({"weak particles", "1", n_weak.value()});
+  measures.own.push_back({"isolated particles", "1", n_isolated.value()});
   if (options.stores_gradients())
-    measures.push_back({"approximation fallbacks", "1", fallbacks.value()});
+    measures.own.push_back({"approximation fallbacks", "1", fallbacks.value()});
   if (points.has_state("temperature"))
-    measures.push_back({"temperature max", "K", top[1]});
+    measures.own.push_back({"temperature max", "K", top[1]});
   return measures;
 }
+
+std::vector<MaterialSite> SpgBody::material_sites() const
+{
+  const double *const eps = points.state("effective plastic strain");
+  std::vector<MaterialSite> sites(nodal_state.n_owned);
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  {
+    const Vec X = nodal_state.reference_position[i];
+    sites[i] = {{{X[0], X[1], X[2]}},
+                eps ? eps[i] : 0.,
+                failure.failed_fraction(bonds, i)};
+  }
+  return sites;
+}
+
+namespace
+{
+const DescribeField described[] = {
+    DescribeField({"failed-bond fraction", "1", 1, "particles",
+                   "Failed bonds of the particle over all it has had."}),
+    DescribeField({"fragment", "1", 1, "particles whose bonds may fail",
+                   "Lowest number of a particle in the piece that bonds still "
+                   "hold together."})};
+} // namespace
 
 OutputMesh SpgBody::output_mesh() const
 {
@@ -82,39 +106,30 @@ OutputMesh SpgBody::output_mesh() const
     mesh.connectivity.push_back(i);
   }
   std::vector<OutputField> &out = mesh.point_fields;
-  add_field(out, "displacement", "m", n, 3,
+  add_field(out, "displacement", n,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out, "velocity", "m/s", n, 3,
+  add_field(out, "velocity", n,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
   points.add_fields(out, items);
-  add_field(out, "failed-bond fraction", "1", n, 1,
+  add_field(out, "failed-bond fraction", n,
             [&](const std::size_t i, const unsigned int)
             { return failure.failed_fraction(bonds, i); });
   if (options.can_fail())
   {
-    const std::vector<GlobalIndex> labels =
-        fragment_labels(nodal_state, bonds, node_exchange, communicator);
-    add_field(out, "fragment", "1", n, 1,
+    const std::vector<GlobalIndex> labels = views.labels();
+    add_field(out, "fragment", n,
               [&](const std::size_t i, const unsigned int)
               { return double(labels[i]); });
   }
-  add_field(out, "body", "1", n, 1,
+  add_field(out, "body", n,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out, "rank", "1", n, 1,
+  add_field(out, "rank", n,
             [&](std::size_t, unsigned int) { return double(rank); });
   return mesh;
-}
-
-std::vector<Fragment> SpgBody::fragments() const
-{
-  return find_fragments(
-      nodal_state,
-      fragment_labels(nodal_state, bonds, node_exchange, communicator),
-      communicator);
 }
 
 ContactSurface SpgBody::contact_surface() const
@@ -133,35 +148,6 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
                       fields.kernel_reference_volume[i] /
                       fields.reference_volume[i]);
   return probe.flow_stress();
-}
-
-SurfacePoint SpgBody::surface_point(const std::size_t i) const
-{
-  return surface.point(i, deformation_gradient(i), kernel.mean_spacing());
-}
-
-VolumePoint SpgBody::volume_point(const std::size_t i) const
-{
-  return particle_volume(i, fields, approximation, kernel);
-}
-
-DebrisView SpgBody::debris() const
-{
-  DebrisView view;
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (failure.n_failed[i] > 0)
-      view.nodes.push_back(i);
-  view.bulk_modulus = points.law().bulk_modulus();
-  view.spacing = kernel.mean_spacing();
-  return view;
-}
-
-bool SpgBody::are_bonded(const std::size_t i, const GlobalIndex j) const
-{
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    if (nodal_state.global_id[bonds.neighbor[b]] == j)
-      return true;
-  return false;
 }
 
 void SpgBody::visit_bonds(StateVisitor &visitor)

@@ -14,6 +14,7 @@
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/spg/spg_parts.h"
+#include "sabot/bodies/spg/spg_views.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/particle_cloud.h"
@@ -63,18 +64,16 @@ public:
   bool update_topology(const unsigned int step, const double time) override;
 
   void add_energies(EnergyLedger &ledger) const override;
-  Measures measure() const override;
+  BodyMeasures measure() const override;
+  std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
 
   ContactSurface contact_surface() const override;
+  const ParticleView *particles() const override { return &views; }
+  const FragmentView *fragments() const override { return &views; }
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
-  SurfacePoint surface_point(const std::size_t i) const override;
-  VolumePoint volume_point(const std::size_t i) const override;
-  DebrisView debris() const override;
-  bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
-  std::vector<Fragment> fragments() const override;
 
   std::string item_name() const override { return "particles"; }
   GlobalIndex n_items() const override { return n_global; }
@@ -158,6 +157,7 @@ private:
   std::unique_ptr<ParticleConduction> heat; // only where asked for
   double last_conduction = 0.;              // [s]
   SpgParts parts;                           // of the above
+  SpgViews views;
 };
 } // namespace sabot
 

@@ -1,0 +1,105 @@
+// The shape "box": uniform, graded away from a zone that is left out of it, or
+// from a part with finer cells; particles stand on a lattice of its own.
+#include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/shape.h"
+
+namespace sabot
+{
+const std::array<const char *, 6> box_faces = {
+    {"-x", "+x", "-y", "+y", "-z", "+z"}};
+
+namespace
+{
+class Box : public Shape
+{
+public:
+  static void declare(Parameters &prm)
+  {
+    prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
+                      quantities(Dimension::length, 3, 3, 1e-9, 1e3),
+                      "Edge lengths of the box.");
+  }
+
+  void declare_grading(Parameters &prm) const override
+  {
+    prm.declare_entry("Coarsest cell size", "1 km",
+                      quantity(Dimension::length, 1e-9, 1e3),
+                      "Where a zone is carved from the body or refined, "
+                      "cells grow away from it up to this size.");
+    prm.declare_entry("Growth ratio", "1.15", quantity(Dimension::none, 1., 3.),
+                      "Size of one cell over the last, away from the zone.");
+    prm.declare_entry("Refined zone size", "0 mm, 0 mm, 0 mm",
+                      quantities(Dimension::length, 3, 3, 0., 1e3),
+                      "Edge lengths of the part of the box that has cells of "
+                      "the cell size; 0: all of it.");
+    prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
+                      quantities(Dimension::length, 3, 3, -1e3, 1e3),
+                      "Position of its centre.");
+  }
+
+  std::string face_names() const override { return "-x, +x, -y, +y, -z, +z"; }
+
+  NamedMesh mesh(const ShapeRequest &request) const override
+  {
+    BoxSpecification box;
+    box.centre = get_vector(request.prm, "Centre");
+    box.size = get_vector(request.prm, "Size");
+    box.cell_size = request.cell_size;
+    const Carving *const carving = request.carving;
+    if (carving != nullptr && !carving->follows_mesh)
+    {
+      box.has_zone = true;
+      box.zone_centre = carving->shape.centre;
+      box.zone_size = carving->shape.size;
+      box.zone_path = "Bodies/" + carving->zone;
+    }
+    if (request.is_graded)
+      grade(request, box);
+    return {make_graded_box(box), {box_faces.begin(), box_faces.end()}};
+  }
+
+  bool fills_bounds() const override { return true; }
+
+  bool has_lattice() const override { return true; }
+
+  ParticleCloud lattice(const Parameters &prm,
+                        const std::array<double, 3> &spacing) const override
+  {
+    return make_box_cloud(get_vector(prm, "Centre"), get_vector(prm, "Size"),
+                          spacing);
+  }
+
+  std::optional<ZoneShape> zone(const Parameters &prm,
+                                const std::string &) const override
+  {
+    ZoneShape zone;
+    zone.centre = get_vector(prm, "Centre");
+    zone.size = get_vector(prm, "Size");
+    return zone;
+  }
+
+private:
+  static void grade(const ShapeRequest &request, BoxSpecification &box)
+  {
+    const Parameters &prm = request.prm;
+    box.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
+    box.growth_ratio = get_quantity(prm, "Growth ratio");
+    const auto refined = get_vector(prm, "Refined zone size");
+    if (!(refined[0] > 0. && refined[1] > 0. && refined[2] > 0.))
+      return;
+    if (box.has_zone)
+      throw InputError(request.path + "/Refined zone size",
+                       "a body has one zone, and \"" + request.carving->zone +
+                           "\" is carved from this one already");
+    box.has_zone = true;
+    box.zone_is_cut = false;
+    box.zone_centre = get_vector(prm, "Refined zone centre");
+    box.zone_size = refined;
+    box.zone_path = request.path;
+  }
+};
+
+const Registry<Shape>::Add box({"box", "of any edge lengths.", Box::declare,
+                                [] { return std::make_unique<Box>(); }});
+} // namespace
+} // namespace sabot

@@ -1,0 +1,107 @@
+// The shape "cylinder": along an axis, whole or a half or a quarter of it, with
+// rings of cells that may grow away from a fine middle part or a zone.
+#include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/shape.h"
+
+namespace sabot
+{
+namespace
+{
+class Cylinder : public Shape
+{
+public:
+  static void declare(Parameters &prm)
+  {
+    const Pattern length = quantity(Dimension::length, 1e-9, 1e3);
+    prm.declare_entry("Radius", "1 mm", length, "Radius of the cylinder.");
+    prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
+    prm.declare_entry("Axis", "z", one_of("x|y|z"),
+                      "Direction of the cylinder's axis.");
+    prm.declare_entry("Core radius", "0 m",
+                      quantity(Dimension::length, 0., 1e3),
+                      "Radius of the middle part that has cells of the cell "
+                      "size; 0: 0.55 of the radius.");
+    prm.declare_entry("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
+                      "Thickness of one ring of cells over the last, "
+                      "outwards.");
+    prm.declare_entry("Coarsest cell size", "1 km", length,
+                      "Rings grow up to this thickness.");
+    prm.declare_entry("Sector", "full", one_of("full|half|quarter"),
+                      "Part of the cylinder that is modelled: half keeps the "
+                      "positive side of the axis that follows the cylinder's "
+                      "(x after z), quarter that of the other one, too. The "
+                      "cut planes are called as a box's faces, e.g. -x, -y.");
+  }
+
+  std::string face_names() const override
+  {
+    return "lower, upper, side and the cut planes of a sector";
+  }
+
+  NamedMesh mesh(const ShapeRequest &request) const override
+  {
+    const Parameters &prm = request.prm;
+    const unsigned int axis = axis_of(prm);
+    const std::string sector = prm.get("Sector");
+    const unsigned int n_cuts = sector == "full" ? 0 : sector == "half" ? 1 : 2;
+    std::vector<std::string> faces = {"lower", "upper", "side"};
+    for (unsigned int cut = 0; cut < n_cuts; ++cut)
+      faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
+    return {make_cylinder(get_quantity(prm, "Radius"),
+                          get_quantity(prm, "Length"), axis,
+                          get_vector(prm, "Centre"), request.cell_size, n_cuts,
+                          grading(request)),
+            std::move(faces)};
+  }
+
+  std::optional<ZoneShape> zone(const Parameters &prm,
+                                const std::string &path) const override
+  {
+    if (prm.get("Sector") != "full")
+      throw InputError(path + "/Sector",
+                       "has no effect: the zone has the cells of the body "
+                       "that it is carved from; remove the entry");
+    ZoneShape zone;
+    zone.centre = get_vector(prm, "Centre");
+    zone.axis = axis_of(prm);
+    zone.size.fill(2. * get_quantity(prm, "Radius"));
+    zone.size[zone.axis] = get_quantity(prm, "Length");
+    return zone;
+  }
+
+private:
+  static int axis_of(const Parameters &prm) { return prm.get("Axis")[0] - 'x'; }
+
+  /** A zone that is a thinner cylinder on the same axis is the fine part. */
+  static CylinderGrading grading(const ShapeRequest &request)
+  {
+    const Parameters &prm = request.prm;
+    const unsigned int axis = axis_of(prm);
+    const double radius = get_quantity(prm, "Radius");
+    CylinderGrading grading;
+    grading.core_radius = get_quantity(prm, "Core radius");
+    grading.growth_ratio = get_quantity(prm, "Growth ratio");
+    grading.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
+    if (grading.core_radius > 0.9 * radius)
+      throw InputError(request.path + "/Core radius",
+                       "leaves no room for rings; at most 0.9 of the radius");
+    const Carving *const carving = request.carving;
+    if (carving == nullptr ||
+        !carving->shape.is_coaxial(axis, get_vector(prm, "Centre")) ||
+        !(0.5 * carving->shape.size[(axis + 1) % 3] < 0.999 * radius))
+      return grading;
+    if (grading.core_radius > 0.)
+      throw InputError(request.path + "/Core radius",
+                       "has no effect: the zone \"" + carving->zone +
+                           "\" that is carved from this body is the middle "
+                           "part with cells of the cell size; remove it");
+    grading.zone_radius = 0.5 * carving->shape.size[(axis + 1) % 3];
+    return grading;
+  }
+};
+
+const Registry<Shape>::Add
+    cylinder({"cylinder", "along an axis, whole or a sector of it.",
+              Cylinder::declare, [] { return std::make_unique<Cylinder>(); }});
+} // namespace
+} // namespace sabot

@@ -1,0 +1,55 @@
+// The shape "projectile": a cylinder with a nose.
+#include "sabot/geometry/round_bodies.h"
+#include "sabot/geometry/shape.h"
+
+namespace sabot
+{
+namespace
+{
+class Projectile : public Shape
+{
+public:
+  static void declare(Parameters &prm)
+  {
+    const Pattern length = quantity(Dimension::length, 1e-9, 1e3);
+    prm.declare_entry("Radius", "1 mm", length, "Radius of the projectile.");
+    prm.declare_entry("Length", "1 mm", length,
+                      "Length of the shaft, without the nose.");
+    prm.declare_entry("Axis", "z", one_of("x|y|z|-x|-y|-z"),
+                      "Where the nose points.");
+    prm.declare_entry("Nose", "ogive", one_of("ogive|conical|spherical"),
+                      "Shape of the nose; the ogive is tangent to the shaft.");
+    prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
+  }
+
+  std::string face_names() const override { return "end, side"; }
+
+  NamedMesh mesh(const ShapeRequest &request) const override
+  {
+    const Parameters &prm = request.prm;
+    ProjectileSpecification projectile;
+    projectile.radius = get_quantity(prm, "Radius");
+    projectile.shaft_length = get_quantity(prm, "Length");
+    projectile.nose_length = get_quantity(prm, "Nose length");
+    const std::string nose = prm.get("Nose"), axis = prm.get("Axis");
+    projectile.nose = nose == "ogive"     ? Nose::ogive
+                      : nose == "conical" ? Nose::conical
+                                          : Nose::spherical;
+    if (projectile.nose == Nose::ogive &&
+        projectile.nose_length < projectile.radius)
+      throw InputError(request.path + "/Nose length",
+                       "a tangent ogive is at least as long as its radius; "
+                       "use a spherical nose or a longer one");
+    projectile.axis = axis.back() - 'x';
+    projectile.towards_positive = axis[0] != '-';
+    projectile.centre = get_vector(prm, "Centre");
+    projectile.cell_size = request.cell_size;
+    return {make_projectile(projectile), {"end", "side"}};
+  }
+};
+
+const Registry<Shape>::Add projectile(
+    {"projectile", "a cylinder with a conical, ogival or spherical nose.",
+     Projectile::declare, [] { return std::make_unique<Projectile>(); }});
+} // namespace
+} // namespace sabot

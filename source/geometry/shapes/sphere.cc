@@ -1,0 +1,31 @@
+// The shape "sphere": a ball of six blocks of shells around a cube.
+#include "sabot/geometry/round_bodies.h"
+#include "sabot/geometry/shape.h"
+
+namespace sabot
+{
+namespace
+{
+class Sphere : public Shape
+{
+public:
+  static void declare(Parameters &prm)
+  {
+    prm.declare_entry("Radius", "1 mm", quantity(Dimension::length, 1e-9, 1e3),
+                      "Radius of the sphere.");
+  }
+
+  std::string face_names() const override { return "surface"; }
+
+  NamedMesh mesh(const ShapeRequest &request) const override
+  {
+    return {make_sphere(get_quantity(request.prm, "Radius"),
+                        get_vector(request.prm, "Centre"), request.cell_size),
+            {"surface"}};
+  }
+};
+
+const Registry<Shape>::Add sphere({"sphere", "a ball.", Sphere::declare,
+                                   [] { return std::make_unique<Sphere>(); }});
+} // namespace
+} // namespace sabot
