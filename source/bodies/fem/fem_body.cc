@@ -310,6 +310,23 @@ BodyMeasures FemBody::measure() const
   return measures;
 }
 
+BodyFacts FemBody::facts() const
+{
+  BodyFacts facts;
+  facts.material = material;
+  facts.is_clamped = !options.clamped_boundary_ids.empty();
+  facts.velocity = options.initial_velocity;
+  facts.spacing = options.cell_size;
+  return facts;
+}
+
+bool FemBody::is_held() const
+{
+  return !options.clamped_boundary_ids.empty() ||
+         !options.symmetry_boundary_ids.empty() ||
+         !options.driven_boundary_ids.empty();
+}
+
 std::vector<MaterialSite> FemBody::material_sites() const
 {
   const std::vector<double> eps = cells->cell_state("effective plastic strain");

@@ -69,6 +69,26 @@ BodyMeasures SpgBody::measure() const
   return measures;
 }
 
+BodyFacts SpgBody::facts() const
+{
+  BodyFacts facts;
+  facts.material = material;
+  facts.is_particles = true;
+  facts.is_clamped = options.clamped_faces != 0;
+  facts.velocity = options.initial_velocity;
+  facts.spacing = *std::min_element(spacing.begin(), spacing.end());
+  facts.may_fail = options.can_fail();
+  if (facts.may_fail && options.failure_criterion ==
+                            SpgOptions::FailureCriterion::effective_plastic_strain)
+    facts.failure_strain = options.critical_value();
+  return facts;
+}
+
+bool SpgBody::is_held() const
+{
+  return options.symmetry_faces != 0 || options.clamped_faces != 0;
+}
+
 std::vector<MaterialSite> SpgBody::material_sites() const
 {
   const double *const eps = points.state("effective plastic strain");

@@ -57,6 +57,12 @@ public:
 
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
+  BodyFacts facts() const override;
+  bool is_held() const override;
+  std::vector<SymmetryPlane> planes_of_symmetry() const override
+  {
+    return symmetry_planes;
+  }
   std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
@@ -68,6 +74,7 @@ public:
   VolumePoint volume_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
+  std::array<double, 3> lattice_spacing() const override { return spacing; }
   std::size_t n_bonds() const override;
   const ParticleView *particles() const override { return this; }
   const FragmentView *fragments() const override { return this; }
