@@ -130,7 +130,7 @@ std::vector<Check> costs()
     o.objective_rate = FemOptions::ObjectiveRate::green_naghdi;
     measured("cells: Green-Naghdi rate", cells(o, plain));
     o = fem;
-    o.hourglass = FemOptions::Hourglass::stiffness;
+    o.hourglass = "stiffness";
     measured("cells: stiffness hourglass control", cells(o, plain));
     o = fem;
     o.hourglass_coefficient = 0.;
@@ -139,7 +139,7 @@ std::vector<Check> costs()
     o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
     measured("cells: no bulk viscosity", cells(o, plain));
     o = fem;
-    o.integration = FemOptions::Integration::b_bar;
+    o.integration = "B-bar";
     measured("cells: B-bar", cells(o, plain));
     // Between steps: erosion and conduction; off there is nothing to do.
     measured("cells, with what is between steps: all off",
