@@ -91,6 +91,8 @@ public:
   bool get_bool(const std::string &name) const;
   long get_integer(const std::string &name) const;
   bool is_declared(const std::string &name) const;
+  /** Names of the entries declared here, subsections left out. */
+  std::vector<std::string> entry_names() const;
   /** @return false where the entry does not accept @p value. */
   bool set(const std::string &name, const std::string &value);
 

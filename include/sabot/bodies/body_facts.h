@@ -4,7 +4,6 @@
 #include "sabot/materials/material.h"
 
 #include <array>
-#include <memory>
 #include <optional>
 
 namespace sabot
@@ -12,7 +11,7 @@ namespace sabot
 /** A body before the run, as estimates of physics and cost see it. */
 struct BodyFacts
 {
-  std::shared_ptr<const Material> material; // of a rigid body: its density only
+  const Material *material = nullptr; // of a rigid body: its density only
   bool deforms = true;
   bool is_particles = false;
   bool is_clamped = false;                  // somewhere

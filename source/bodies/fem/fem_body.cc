@@ -311,7 +311,7 @@ BodyMeasures FemBody::measure() const
 BodyFacts FemBody::facts() const
 {
   BodyFacts facts;
-  facts.material = material;
+  facts.material = material.get();
   facts.is_clamped = !options.clamped_boundary_ids.empty();
   facts.velocity = options.initial_velocity;
   facts.spacing = options.cell_size;

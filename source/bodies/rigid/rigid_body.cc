@@ -286,7 +286,7 @@ BodyMeasures RigidBody::measure() const
 BodyFacts RigidBody::facts() const
 {
   BodyFacts facts;
-  facts.material = material;
+  facts.material = material.get();
   facts.deforms = false;
   facts.velocity = options.initial_velocity;
   facts.spacing = options.cell_size;
