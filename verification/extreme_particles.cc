@@ -258,7 +258,7 @@ std::vector<Check> long_flight()
   box.size = {{h, h, h}};
   box.cell_size = h;
   FemOptions fem;
-  fem.hourglass = FemOptions::Hourglass::stiffness;
+  fem.hourglass = "stiffness";
   fem.bulk_viscosity_linear = fem.bulk_viscosity_quadratic = 0.;
   add_flight(checks, "a cell: ",
              std::make_unique<FemBody>("cell", 0, make_graded_box(box),

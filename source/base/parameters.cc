@@ -113,14 +113,44 @@ void Parameters::declare_entry(const std::string &name,
   prm->declare_entry(name, standard, pattern.get(), meaning);
 }
 
+void Parameters::declare_knob(const std::string &name,
+                              const std::string &standard,
+                              const Pattern &pattern,
+                              const std::string &meaning)
+{
+  declare_entry(name, standard, pattern, meaning);
+  all_knobs.push_back(section);
+  all_knobs.back().push_back(name);
+}
+
+std::vector<std::pair<std::string, std::string>> Parameters::knobs()
+{
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const std::vector<std::string> &knob : all_knobs)
+  {
+    std::string path;
+    for (std::size_t k = 0; k + 1 < knob.size(); ++k)
+    {
+      prm->enter_subsection(knob[k]);
+      path += knob[k] + "/";
+    }
+    values.emplace_back(path + knob.back(), get(knob.back()));
+    for (std::size_t k = 0; k + 1 < knob.size(); ++k)
+      prm->leave_subsection();
+  }
+  return values;
+}
+
 void Parameters::enter_subsection(const std::string &name)
 {
   prm->enter_subsection(name);
+  section.push_back(name);
 }
 
 void Parameters::leave_subsection()
 {
   prm->leave_subsection();
+  section.pop_back();
 }
 
 std::string Parameters::get(const std::string &name) const

@@ -77,6 +77,12 @@ public:
 
   void declare_entry(const std::string &name, const std::string &standard,
                      const Pattern &pattern, const std::string &meaning = "");
+  /** The same for an entry that trades speed for accuracy: result.json lists
+      these with the values in force. */
+  void declare_knob(const std::string &name, const std::string &standard,
+                    const Pattern &pattern, const std::string &meaning);
+  /** Path and value of all knobs, in the order of their declaration. */
+  std::vector<std::pair<std::string, std::string>> knobs();
   void enter_subsection(const std::string &name);
   void leave_subsection();
 
@@ -96,6 +102,8 @@ public:
 
 private:
   std::unique_ptr<dealii::ParameterHandler> prm;
+  std::vector<std::string> section;                // present
+  std::vector<std::vector<std::string>> all_knobs; // sections and name
 };
 
 /** Enters Section/name of the parameters while it lives. */

@@ -1,5 +1,6 @@
 // What an SPG body shows: energies, measures, fields, checkpoint, and its
 // particles as parts of a surface.
+#include "sabot/base/output_fields.h"
 #include "sabot/bodies/body_report.h"
 #include "sabot/bodies/spg/spg_body.h"
 
@@ -64,6 +65,25 @@ BodyMeasures SpgBody::measure() const
   if (points.has_state("temperature"))
     measures.own.push_back({"temperature max", "K", top[1]});
   return measures;
+}
+
+BodyFacts SpgBody::facts() const
+{
+  BodyFacts facts;
+  facts.material = &points.law();
+  facts.is_particles = true;
+  facts.is_clamped = options.clamped_faces != 0;
+  facts.velocity = options.initial_velocity;
+  const std::array<double, 3> &spacing = kernel.axis_spacing();
+  facts.spacing = *std::min_element(spacing.begin(), spacing.end());
+  facts.may_fail = options.can_fail();
+  facts.failure_strain = options.failure_criterion->critical_plastic_strain();
+  return facts;
+}
+
+bool SpgBody::is_held() const
+{
+  return options.symmetry_faces != 0 || options.clamped_faces != 0;
 }
 
 std::vector<MaterialSite> SpgBody::material_sites() const

@@ -25,6 +25,10 @@ public:
                        "the body's material has no effective plastic strain; "
                        "use a law with plasticity or remove the entry");
   }
+  std::optional<double> critical_plastic_strain() const override
+  {
+    return can_be_met() ? std::optional(critical_value()) : std::nullopt;
+  }
   void measure(const MaterialPoints &points, const ParticleFields &,
                double *const value) const override
   {

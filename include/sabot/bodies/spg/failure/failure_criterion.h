@@ -35,6 +35,13 @@ public:
   /** Only where can_be_met(). */
   double critical_value() const { return *critical; }
 
+  /** The effective plastic strain at which a bond may fail, where that is what
+      the measure is. */
+  virtual std::optional<double> critical_plastic_strain() const
+  {
+    return std::nullopt;
+  }
+
   /** Throws InputError where the body's material does not know what the
       measure needs. @p path: of the body. */
   virtual void check(const MaterialPoints &, const std::string & /*path*/) const
