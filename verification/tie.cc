@@ -11,9 +11,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double rho = 2700., E = 68.9e9, nu = 0.33;
-const double wave_speed =
-    std::sqrt(E * (1. - nu) / ((1. + nu) * (1. - 2. * nu) * rho));
 constexpr double coarse = 1e-3; // [m], cells of the hexahedra
 
 /** A body whose end across x at @p end moves as a burst of two periods, then
@@ -62,7 +59,8 @@ struct Crossing
     hexahedra of edge H and particles H / @p ratio apart. */
 Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
 {
-  const double length = n_coarse * coarse, period = length / wave_speed;
+  const double length = n_coarse * coarse,
+               period = length / elastic()->sound_speed();
   const double before = 3. * length, behind = 4.5 * length;
   World world;
   BoxSpecification box;
@@ -80,12 +78,12 @@ Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
   const double far = 1e3; // no end there
   world.bodies.push_back(std::make_unique<Driven<FemBody>>(
       from_particles ? far : -before, period, "cells", 0, make_graded_box(box),
-      elastic(nu), fem));
+      elastic(), fem));
   world.bodies.push_back(std::make_unique<Driven<SpgBody>>(
       from_particles ? before : far, period, "particles", 1,
       make_box_cloud({{0.5 * cloud, 0., 0.}}, {{cloud, coarse, coarse}},
                      coarse / ratio),
-      elastic(nu), spg));
+      elastic(), spg));
   world.couplings.push_back(std::make_unique<Tie>("tie", world.pointers(), 1, 0,
                                                   0.05, MPI_COMM_WORLD));
   world.distribute();
@@ -94,7 +92,8 @@ Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
     world.advance(0.9);
   const double sent = world.total_energy();
   // The slowest part has crossed, and no reflection has come back twice.
-  while (world.integrator.time < 1.4 * (2. * length + before) / wave_speed)
+  while (world.integrator.time <
+         1.4 * (2. * length + before) / elastic()->sound_speed())
     world.advance(0.9);
   EnergyLedger ledger;
   world.couplings[0]->add_energies(ledger);
@@ -294,7 +293,7 @@ Pipes turn(const HexMesh &leader, const HexMesh &follower)
   World world;
   FemOptions options;
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
-  options.hourglass = FemOptions::Hourglass::stiffness;
+  options.hourglass = "stiffness";
   world.bodies.push_back(
       std::make_unique<FemBody>("leader", 0, leader, elastic(), options));
   world.bodies.push_back(
