@@ -45,16 +45,16 @@ Shearing shear(const double h, const double failure_strain)
       driven.push_back(i);
     }
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   double work = 0.;
   const double distance = 7e-3; // of the ends, relative: failed by then
-  while (2. * v * world.integrator.time < distance)
+  while (2. * v * world.stepper.time() < distance)
   {
     const double dt = world.advance(0.8);
     for (const std::size_t i : driven)
       work -= n.force[i][0] * speed[i] * dt;
   }
-  return {work / (Lx * Ly), measure(body, "bonds broken fraction")};
+  return {work / (Lx * Ly), body.measure().bonds_broken_fraction};
 }
 
 std::vector<Check> spg_shear_plug()
