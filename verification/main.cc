@@ -1,5 +1,6 @@
 // sabot-verify: the program that `sabot verify` starts.
 #include "sabot/base/error.h"
+#include "sabot/output/file_tools.h"
 #include "verification/problem.h"
 
 #include <deal.II/base/mpi.h>
@@ -12,13 +13,15 @@ int main(int argc, char **argv)
 {
   using namespace sabot;
   std::vector<std::string> problems;
-  std::string json_file;
+  std::string json_file, page_file;
   bool list = false;
   CLI::App app("Compare verification problems with exact answers",
                "sabot verify");
   app.add_option("name", problems, "Problems or labels; none: all quick ones");
   app.add_flag("--list", list, "Name the problems");
   app.add_option("--json", json_file, "Write the checks to this file");
+  app.add_option("--page", page_file,
+                 "Write the page of the reference on problems to this file");
   try
   {
     app.parse(argc, argv);
@@ -33,7 +36,9 @@ int main(int argc, char **argv)
   {
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       throw InputError("", "`sabot verify` runs on one rank");
-    if (list)
+    if (!page_file.empty())
+      write_text(page_file, problems_page());
+    else if (list)
       list_problems();
     else if (!verify(problems, json_file))
       return static_cast<int>(ExitCode::physics_failed);

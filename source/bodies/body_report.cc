@@ -9,6 +9,25 @@
 
 namespace sabot
 {
+namespace
+{
+const DescribeField described[] = {
+    DescribeField({"displacement", "m", 3, "all bodies",
+                   "Current less initial position."}),
+    DescribeField({"velocity", "m/s", 3, "all bodies", "Of the node."}),
+    DescribeField({"stress", "Pa", 6, "cells, particles",
+                   "Cauchy stress, in the current frame; positive in "
+                   "tension."}),
+    DescribeField({"von Mises", "Pa", 1, "cells, particles",
+                   "sqrt(3/2 s:s) of the deviator s of the stress."}),
+    DescribeField({"pressure", "Pa", 1, "cells, particles",
+                   "Minus a third of the trace of the stress; positive in "
+                   "compression."}),
+    DescribeField({"body", "1", 1, "all bodies",
+                   "Number of the body in the list of bodies, from 0."}),
+    DescribeField({"rank", "1", 1, "all bodies", "MPI rank that owns it."})};
+} // namespace
+
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
                          const std::size_t n, const double *const stress,
@@ -17,8 +36,8 @@ void add_material_fields(std::vector<OutputField> &fields,
 {
   const auto stress_at = [&](const std::size_t i, const unsigned int c)
   { return stress[c * n + items[i]]; };
-  add_field(fields, "stress", "Pa", items.size(), 6, stress_at);
-  add_field(fields, "von Mises", "Pa", items.size(), 1,
+  add_field(fields, "stress", items.size(), stress_at);
+  add_field(fields, "von Mises", items.size(),
             [&](const std::size_t i, const unsigned int)
             {
               double s[6];
@@ -27,7 +46,7 @@ void add_material_fields(std::vector<OutputField> &fields,
               return von_mises(s);
             });
   add_field(
-      fields, "pressure", "Pa", items.size(), 1,
+      fields, "pressure", items.size(),
       [&](const std::size_t i, const unsigned int)
       { return -(stress_at(i, 0) + stress_at(i, 1) + stress_at(i, 2)) / 3.; });
   for (const StateVariable &variable : variables)
@@ -35,7 +54,7 @@ void add_material_fields(std::vector<OutputField> &fields,
     {
       const double *const values =
           find_state(variables, state, n, variable.name);
-      add_field(fields, variable.name, variable.unit, items.size(), 1,
+      add_field(fields, variable.name, items.size(),
                 [&](const std::size_t i, const unsigned int)
                 { return values[items[i]]; });
     }

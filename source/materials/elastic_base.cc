@@ -3,6 +3,7 @@
 #include "sabot/materials/elastic_base.h"
 
 #include "sabot/base/error.h"
+#include "sabot/base/output_fields.h"
 #include "sabot/base/parameters.h"
 #include "sabot/materials/bulk_modulus.h"
 
@@ -10,6 +11,18 @@
 
 namespace sabot
 {
+namespace
+{
+// States that several laws have.
+const DescribeField described[] = {
+    DescribeField({"effective plastic strain", "1", 1,
+                   "cells, particles of laws that yield",
+                   "Integral of sqrt(2/3 d_p:d_p) over time."}),
+    DescribeField({"temperature", "K", 1,
+                   "cells, particles of laws that heat up",
+                   "Adiabatic, or with conduction where the body conducts."})};
+} // namespace
+
 void ElasticConstants::declare_parameters(Parameters &prm)
 {
   prm.declare_entry("Density", "0", quantity(Dimension::density, 0., 1e5),

@@ -24,9 +24,9 @@ HardeningPlasticity::HardeningPlasticity(const ElasticConstants &elastic,
 std::vector<StateVariable> HardeningPlasticity::law_variables() const
 {
   std::vector<StateVariable> variables = {
-      {"effective plastic strain", "1", 0., false}};
+      {"effective plastic strain", 0., false}};
   if (isotropic_fraction < 1.)
-    variables.push_back({"back stress", "Pa", 0., true});
+    variables.push_back({"back stress", 0., true});
   return variables;
 }
 

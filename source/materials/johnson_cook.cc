@@ -1,6 +1,7 @@
 // Flow stress and fracture strain after Johnson and Cook.
 #include "sabot/materials/johnson_cook.h"
 
+#include "sabot/base/output_fields.h"
 #include "sabot/base/registry.h"
 #include "sabot/kernels/stress_update.h"
 
@@ -20,7 +21,7 @@ std::vector<StateVariable> JohnsonCook::law_variables() const
 {
   auto variables = RateDependentPlasticity::law_variables();
   if (flow.p.has_damage)
-    variables.push_back({"damage", "1", 0., false});
+    variables.push_back({"damage", 0., false});
   return variables;
 }
 
@@ -143,6 +144,10 @@ JohnsonCookParameters parse(const Parameters &prm, const std::string &path,
                          "positive");
   return p;
 }
+
+const DescribeField described({"damage", "1", 1,
+                               "cells, particles of Johnson-Cook with damage",
+                               "Johnson and Cook 1985: 1 at fracture."});
 
 const Registry<Material>::Add registered(
     {"Johnson-Cook",

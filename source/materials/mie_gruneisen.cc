@@ -1,6 +1,7 @@
 // Mie-Grueneisen pressure from shock data.
 #include "sabot/materials/mie_gruneisen.h"
 
+#include "sabot/base/output_fields.h"
 #include "sabot/base/registry.h"
 #include "sabot/materials/elastic_base.h"
 
@@ -124,6 +125,12 @@ std::shared_ptr<const EquationOfState> make(const Parameters &prm,
   }
   return eos;
 }
+
+const DescribeField
+    described({"specific internal energy", "J/kg", 1,
+               "cells, particles with this equation of state",
+               "Of Mie-Gruneisen, over the initial state, deviatoric and "
+               "viscous work included."});
 
 const Registry<EquationOfState>::Add registered(
     {"Mie-Gruneisen",

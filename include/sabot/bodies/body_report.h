@@ -3,6 +3,7 @@
 
 #include "sabot/base/measures.h"
 #include "sabot/base/nodal_state.h"
+#include "sabot/base/output_fields.h"
 #include "sabot/materials/material.h"
 
 #include <mpi.h>
@@ -19,16 +20,17 @@ void add_material_fields(std::vector<OutputField> &fields,
                          const double *state,
                          const std::vector<StateVariable> &variables);
 
-/** A field with value(item, component) for @p n items. */
+/** A field with value(item, component) for @p n items; unit and number of
+    components are those of its description (base/output_fields.h). */
 template <typename Value>
 void add_field(std::vector<OutputField> &fields, const std::string &name,
-               const std::string &unit, const std::size_t n,
-               const unsigned int n_components, const Value &value)
+               const std::size_t n, const Value &value)
 {
-  OutputField field{name, unit, n_components, {}};
-  field.values.reserve(n * n_components);
+  const FieldDescription &described = described_field(name);
+  OutputField field{name, described.unit, described.n_components, {}};
+  field.values.reserve(n * field.n_components);
   for (std::size_t i = 0; i < n; ++i)
-    for (unsigned int c = 0; c < n_components; ++c)
+    for (unsigned int c = 0; c < field.n_components; ++c)
       field.values.push_back(value(i, c));
   fields.push_back(std::move(field));
 }

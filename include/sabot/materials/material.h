@@ -56,7 +56,9 @@ struct MaterialBatch
 /** A state variable of a material. */
 struct StateVariable
 {
-  std::string name, unit;
+  /** Of a scalar also the name of an output field: it must be described
+      (base/output_fields.h), where its unit stands. */
+  std::string name;
   double initial_value = 0.;
   /** A symmetric tensor (six consecutive arrays) is rotated with the stress. */
   bool is_tensor = false;

@@ -42,7 +42,7 @@ public:
   }
   std::vector<StateVariable> state_variables() const override
   {
-    return {{"specific internal energy", "J/kg", 0., false}};
+    return {{"specific internal energy", 0., false}};
   }
   bool needs_viscous_pressure() const override { return true; }
   bool stiffens() const override { return true; }

@@ -64,8 +64,8 @@ public:
 protected:
   std::vector<StateVariable> law_variables() const override
   {
-    return {{"effective plastic strain", "1", 0., false},
-            {"temperature", "K", thermal.initial_temperature, false}};
+    return {{"effective plastic strain", 0., false},
+            {"temperature", thermal.initial_temperature, false}};
   }
   void update_deviator(const MaterialBatch &batch,
                        Scratch &scratch) const override;

@@ -346,20 +346,20 @@ OutputMesh FemBody::output_mesh() const
       out.connectivity.insert(out.connectivity.end(), nodes.begin(),
                               nodes.end());
     }
-  add_field(out.point_fields, "displacement", "m", n_nodes, 3,
+  add_field(out.point_fields, "displacement", n_nodes,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out.point_fields, "velocity", "m/s", n_nodes, 3,
+  add_field(out.point_fields, "velocity", n_nodes,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
   add_material_fields(out.cell_fields, owned, cells->size(),
                       cells->cell_stress().data(), cells->cell_states().data(),
                       cells->states());
-  add_field(out.cell_fields, "body", "1", owned.size(), 1,
+  add_field(out.cell_fields, "body", owned.size(),
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", "1", owned.size(), 1,
+  add_field(out.cell_fields, "rank", owned.size(),
             [&](std::size_t, unsigned int) { return double(rank); });
   return out;
 }

@@ -300,17 +300,17 @@ OutputMesh RigidBody::output_mesh() const
       out.connectivity.insert(out.connectivity.end(), cells[e].begin(),
                               cells[e].end());
     }
-  add_field(out.point_fields, "displacement", "m", n, 3,
+  add_field(out.point_fields, "displacement", n,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out.point_fields, "velocity", "m/s", n, 3,
+  add_field(out.point_fields, "velocity", n,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
-  add_field(out.cell_fields, "body", "1", n_cells, 1,
+  add_field(out.cell_fields, "body", n_cells,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", "1", n_cells, 1,
+  add_field(out.cell_fields, "rank", n_cells,
             [&](std::size_t, unsigned int) { return double(rank); });
   return out;
 }

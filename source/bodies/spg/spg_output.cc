@@ -91,6 +91,16 @@ std::size_t SpgBody::n_bonds() const
   return n;
 }
 
+namespace
+{
+const DescribeField described[] = {
+    DescribeField({"failed-bond fraction", "1", 1, "particles",
+                   "Failed bonds of the particle over all it has had."}),
+    DescribeField({"fragment", "1", 1, "particles whose bonds may fail",
+                   "Lowest number of a particle in the piece that bonds still "
+                   "hold together."})};
+} // namespace
+
 OutputMesh SpgBody::output_mesh() const
 {
   const std::size_t n = nodal_state.n_owned;
@@ -107,16 +117,16 @@ OutputMesh SpgBody::output_mesh() const
     mesh.connectivity.push_back(i);
   }
   std::vector<OutputField> &fields = mesh.point_fields;
-  add_field(fields, "displacement", "m", n, 3,
+  add_field(fields, "displacement", n,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(fields, "velocity", "m/s", n, 3,
+  add_field(fields, "velocity", n,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
   points.add_fields(fields, items);
-  add_field(fields, "failed-bond fraction", "1", n, 1,
+  add_field(fields, "failed-bond fraction", n,
             [&](const std::size_t i, const unsigned int)
             {
               const double all = bonds.n_bonds(i) + n_failed[i];
@@ -125,13 +135,13 @@ OutputMesh SpgBody::output_mesh() const
   if (options.can_fail())
   {
     const std::vector<GlobalIndex> labels = fragment_labels();
-    add_field(fields, "fragment", "1", n, 1,
+    add_field(fields, "fragment", n,
               [&](const std::size_t i, const unsigned int)
               { return double(labels[i]); });
   }
-  add_field(fields, "body", "1", n, 1,
+  add_field(fields, "body", n,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(fields, "rank", "1", n, 1,
+  add_field(fields, "rank", n,
             [&](std::size_t, unsigned int) { return double(rank); });
   return mesh;
 }
