@@ -51,13 +51,13 @@ void elastic_viscous(benchmark::State &state)
 void elastic_stiffness(benchmark::State &state)
 {
   FemOptions options;
-  options.hourglass = FemOptions::Hourglass::stiffness;
+  options.hourglass = "stiffness";
   step(state, options, 1e4, false);
 }
 void elastic_b_bar(benchmark::State &state)
 {
   FemOptions options;
-  options.integration = FemOptions::Integration::b_bar;
+  options.integration = "B-bar";
   step(state, options, 1e4, false);
 }
 void johnson_cook_below_yield(benchmark::State &state)
@@ -71,13 +71,13 @@ void johnson_cook_viscous(benchmark::State &state)
 void johnson_cook_stiffness(benchmark::State &state)
 {
   FemOptions options;
-  options.hourglass = FemOptions::Hourglass::stiffness;
+  options.hourglass = "stiffness";
   step(state, options, 1e4, true);
 }
 void johnson_cook_b_bar(benchmark::State &state)
 {
   FemOptions options;
-  options.integration = FemOptions::Integration::b_bar;
+  options.integration = "B-bar";
   step(state, options, 1e4, true);
 }
 // 10: in the cache

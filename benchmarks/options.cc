@@ -116,7 +116,7 @@ void add_cells(const Law &law)
   o.objective_rate = FemOptions::ObjectiveRate::green_naghdi;
   cells("Green-Naghdi rate", o, law);
   o = FemOptions();
-  o.hourglass = FemOptions::Hourglass::stiffness;
+  o.hourglass = "stiffness";
   cells("stiffness hourglass control", o, law);
   o = FemOptions();
   o.hourglass_coefficient = 0.;
@@ -125,7 +125,7 @@ void add_cells(const Law &law)
   o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
   cells("no bulk viscosity", o, law);
   o = FemOptions();
-  o.integration = FemOptions::Integration::b_bar;
+  o.integration = "B-bar";
   cells("B-bar", o, law);
 
   cells("with updates: all off", FemOptions(), law, with_updates);

@@ -1,5 +1,6 @@
 // CPU time of the force loop of an SPG block, per particle-step.
 // spg_step --benchmark_filter=... ; see doc/performance.md
+#include "sabot/base/choice.h"
 #include "verification/world.h"
 
 #include <deal.II/base/mpi.h>
@@ -39,16 +40,16 @@ void step(benchmark::State &state, const SpgOptions &options,
   state.counters["items"] = body.n_items();
 }
 
-SpgOptions with(const SpgOptions::Stabilization s)
+SpgOptions with(const std::string &s)
 {
   SpgOptions o;
-  o.stabilization = s;
+  o.stabilization = choose<Stabilization>(s);
   return o;
 }
 
 void elastic_unstabilised(benchmark::State &state)
 {
-  step(state, with(SpgOptions::Stabilization::none), 10., false);
+  step(state, with("none"), 10., false);
 }
 void elastic_bond_residual(benchmark::State &state)
 {
@@ -56,7 +57,7 @@ void elastic_bond_residual(benchmark::State &state)
 }
 void johnson_cook_unstabilised(benchmark::State &state)
 {
-  step(state, with(SpgOptions::Stabilization::none), 300., true);
+  step(state, with("none"), 300., true);
 }
 void johnson_cook_bond_residual(benchmark::State &state)
 {
@@ -72,7 +73,7 @@ void convex_bond_residual(benchmark::State &state)
 }
 void convex_second_gradient(benchmark::State &state)
 {
-  SpgOptions o = with(SpgOptions::Stabilization::second_gradient);
+  SpgOptions o = with("second gradient");
   o.approximation = SpgOptions::Approximation::convex_exponential;
   o.kernel_shape = SpgOptions::KernelShape::tensor;
   o.normalized_support = 1.5;

@@ -22,6 +22,7 @@ ALLOWED = {
     "geometry/shapes": {"base", "kernels", "geometry"},
     "bodies": {"base", "kernels", "materials"},
     "bodies/fem": {"base", "kernels", "materials", "geometry", "bodies"},
+    "bodies/fem/hourglass": {"base", "kernels", "materials", "bodies/fem"},
     "bodies/rigid": {"base", "kernels", "materials", "geometry", "bodies"},
     "bodies/spg": {"base", "kernels", "materials", "geometry", "bodies"},
     "couplings": {"base", "kernels", BODY},

@@ -18,7 +18,7 @@ std::unique_ptr<SpgBody> block(const std::string &name, const int id,
   SpgOptions options;
   options.initial_velocity = {{0., 0., velocity}};
   if (crumbles)
-    options.critical_effective_plastic_strain = 0.1;
+    options.set_critical_plastic_strain(0.1);
   const auto metal = hardening_aluminum();
   return std::make_unique<SpgBody>(
       name, id, make_box_cloud(centre, size, spacing), metal, options);

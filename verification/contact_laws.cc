@@ -282,7 +282,7 @@ std::vector<Check> hertz()
       options.initial_velocity = {{0., 0., -side * 0.5 * v}};
       // Elastic: nothing of the cells may damp either.
       options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
-      options.hourglass = FemOptions::Hourglass::stiffness;
+      options.hourglass = "stiffness";
       HexMesh mesh = make_sphere(R, {{0., 0., 0.}}, h);
       double low = 0.;
       for (const auto &p : mesh.nodes)

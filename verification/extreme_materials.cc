@@ -252,7 +252,7 @@ std::vector<Check> aspect_ratio()
 
   // Free flight with a spin and noise: energy and momenta.
   World free;
-  options.hourglass = FemOptions::Hourglass::stiffness;
+  options.hourglass = "stiffness";
   free.bodies.push_back(
       std::make_unique<FemBody>("bar", 0, mesh(), elastic(0.33), options));
   free.distribute();

@@ -63,7 +63,7 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
 {
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.45;
+  options.set_critical_plastic_strain(0.45);
   options.failure_check_interval = 1;
   world.bodies.push_back(std::make_unique<SpgBody>(
       "block", 0, make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, h),
@@ -257,7 +257,7 @@ std::vector<Check> long_flight()
   box.size = {{h, h, h}};
   box.cell_size = h;
   FemOptions fem;
-  fem.hourglass = FemOptions::Hourglass::stiffness;
+  fem.hourglass = "stiffness";
   fem.bulk_viscosity_linear = fem.bulk_viscosity_quadratic = 0.;
   add_flight(checks, "a cell: ",
              std::make_unique<FemBody>("cell", 0, make_graded_box(box),

@@ -44,7 +44,7 @@ Outcome strike(const double speed, const double end)
   world.bodies.push_back(std::make_unique<FemBody>(
       "plate", 0, make_graded_box(box), target, plate));
   SpgOptions core;
-  core.critical_effective_plastic_strain = 0.4;
+  core.set_critical_plastic_strain(0.4);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "core", 1, make_box_cloud(box.centre, box.zone_size, h), target, core));
   FemOptions projectile;

@@ -57,7 +57,7 @@ State run(const Units &u)
   world.bodies.push_back(
       std::make_unique<FemBody>("plate", 0, make_graded_box(box), metal, fem));
   SpgOptions spg;
-  spg.critical_effective_plastic_strain = 0.1;
+  spg.set_critical_plastic_strain(0.1);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "core", 1, make_box_cloud({{0., 0., 0.}}, box.zone_size, mm), metal,
       spg));

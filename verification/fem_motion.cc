@@ -16,11 +16,11 @@ HexMesh box(const std::array<double, 3> &size,
   return make_graded_box(b);
 }
 
-FemOptions inviscid(const FemOptions::Integration integration)
+FemOptions inviscid(const std::string &integration)
 {
   FemOptions o;
   o.integration = integration;
-  o.hourglass = FemOptions::Hourglass::stiffness;
+  o.hourglass = "stiffness";
   o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
   return o;
 }
@@ -31,8 +31,7 @@ FemOptions inviscid(const FemOptions::Integration integration)
 std::vector<Check> spinning_plate()
 {
   std::vector<Check> checks;
-  for (const auto integration :
-       {FemOptions::Integration::one_point, FemOptions::Integration::b_bar})
+  for (const std::string integration : {"one point", "B-bar"})
   {
     World world;
     world.bodies.push_back(std::make_unique<FemBody>(
@@ -74,9 +73,8 @@ std::vector<Check> spinning_plate()
     // Rotating square plate: mean of the trace of the stress is
     // rho omega^2 <x^2 + y^2> (virial theorem).
     const double virial = 1100. * omega * omega * (1. / 12. + 1. / 12.);
-    const std::string who = integration == FemOptions::Integration::one_point
-                                ? "one point: "
-                                : "B-bar: ";
+    const std::string who =
+        integration == "one point" ? "one point: " : "B-bar: ";
     checks.push_back({who + "angular momentum, relative change", 0.,
                       after[5] / before[5] - 1., 1e-10, "1", "conservation"});
     checks.push_back({who + "energy residual", 0., watch.residual(), 1e-3, "1",
@@ -161,7 +159,7 @@ std::vector<Check> twisting_columns()
   };
   for (const double h : {1. / 4., 1. / 8., 1. / 16.})
   {
-    FemOptions options = inviscid(FemOptions::Integration::b_bar);
+    FemOptions options = inviscid("B-bar");
     options.clamped_boundary_ids = {4};
     const Column c =
         twist_column(std::make_unique<FemBody>(
@@ -180,7 +178,7 @@ std::vector<Check> twisting_columns()
   checks.push_back({"twist, extrapolated by second order", 0., limit, 0., "rad",
                     "", Check::Kind::reported});
   {
-    FemOptions options = inviscid(FemOptions::Integration::one_point);
+    FemOptions options = inviscid("one point");
     options.clamped_boundary_ids = {4};
     const Column c = twist_column(
         std::make_unique<FemBody>("column", 0,

@@ -23,7 +23,7 @@ Shearing shear(const double h, const double failure_strain)
   const double Lx = 10e-3, Ly = 3e-3, Lz = 8e-3, v = 60., grip = 1.01e-3;
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = failure_strain;
+  options.set_critical_plastic_strain(failure_strain);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "block", 0, make_box_cloud({{0, 0, 0}}, {{Lx, Ly, Lz}}, h),
       metal("al6061-t6"), options));

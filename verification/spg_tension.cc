@@ -38,7 +38,7 @@ std::vector<Check> tension_bar()
     const double L = 12e-3, w = 3e-3, v = 250.;
     World world;
     SpgOptions o;
-    o.critical_effective_plastic_strain = 0.4;
+    o.set_critical_plastic_strain(0.4);
     const auto metal = hardening_aluminum();
     world.bodies.push_back(std::make_unique<SpgBody>(
         "bar", 0, make_box_cloud({{0, 0, 0}}, {{L, w, w}}, spacing), metal, o));

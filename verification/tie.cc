@@ -290,7 +290,7 @@ Pipes turn(const HexMesh &leader, const HexMesh &follower)
   World world;
   FemOptions options;
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
-  options.hourglass = FemOptions::Hourglass::stiffness;
+  options.hourglass = "stiffness";
   world.bodies.push_back(
       std::make_unique<FemBody>("leader", 0, leader, elastic(), options));
   world.bodies.push_back(

@@ -202,7 +202,7 @@ TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
 {
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.2;
+  options.set_critical_plastic_strain(0.2);
   const auto metal = hardening_aluminum();
   SpgBody &body =
       add_block(world, {{10e-3, 3e-3, 3e-3}}, 1e-3, 0., options, metal);
@@ -249,7 +249,7 @@ struct BreakingBlock
                          const double critical_stretch)
   {
     SpgOptions options;
-    options.critical_effective_plastic_strain = 0.45;
+    options.set_critical_plastic_strain(0.45);
     options.critical_stretch = critical_stretch;
     options.failure_check_interval = 1;
     options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;

@@ -1,7 +1,9 @@
 #include "sabot/bodies/fem/fem_body.h"
 
 #include "sabot/base/parameters.h"
+#include "sabot/base/registry.h"
 #include "sabot/bodies/body_report.h"
+#include "sabot/bodies/fem/one_point.h"
 
 #include <algorithm>
 
@@ -9,13 +11,10 @@ namespace sabot
 {
 void FemOptions::declare_parameters(Parameters &prm)
 {
-  prm.declare_entry("Integration", "one point", one_of("one point|B-bar"),
-                    "one point: fast, with hourglass control; B-bar: eight "
-                    "points with the mean volumetric strain, no hourglass "
-                    "modes, no volumetric locking, several times the cost.");
-  prm.declare_entry("Hourglass control", "viscous", one_of("viscous|stiffness"),
-                    "Flanagan-Belytschko; viscous for large plastic flow, "
-                    "stiffness for elastic bodies.");
+  Registry<Hexahedra>::declare_choice(prm, "Integration", "one point",
+                                      "Points of a cell.");
+  Registry<OnePoint>::declare_choice(prm, "Hourglass control", "viscous",
+                                     "Of cells with one point.");
   prm.declare_entry("Hourglass coefficient", "0.1",
                     quantity(Dimension::none, 0., 1.), "Usually 0.03 to 0.15.");
   prm.declare_entry("Heat conduction", "false", boolean(),
@@ -54,11 +53,8 @@ void FemOptions::declare_parameters(Parameters &prm)
 FemOptions FemOptions::parse(const Parameters &prm)
 {
   FemOptions o;
-  o.integration = prm.get("Integration") == "B-bar" ? Integration::b_bar
-                                                    : Integration::one_point;
-  o.hourglass = prm.get("Hourglass control") == "viscous"
-                    ? Hourglass::viscous
-                    : Hourglass::stiffness;
+  o.integration = prm.get("Integration");
+  o.hourglass = prm.get("Hourglass control");
   o.conducts_heat = prm.get_bool("Heat conduction");
   o.conduction_interval = get_quantity(prm, "Conduction interval");
   o.objective_rate = prm.get("Objective rate") == "Jaumann"
@@ -82,7 +78,9 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                  const FemOptions &options)
     : Body(name, id), mesh(std::move(mesh)), material(std::move(material)),
       options(options), n_global_cells(this->mesh.cells.size()),
-      cells(Hexahedra::make(name, options, this->material))
+      cells(Registry<Hexahedra>::get("Bodies/" + name + "/Integration",
+                                     options.integration)
+                .make(name, options, this->material))
 {
   for (const unsigned int boundary : options.symmetry_boundary_ids)
   {
@@ -308,6 +306,23 @@ BodyMeasures FemBody::measure() const
   if (erosion)
     add_erosion_measures(measures);
   return measures;
+}
+
+BodyFacts FemBody::facts() const
+{
+  BodyFacts facts;
+  facts.material = material.get();
+  facts.is_clamped = !options.clamped_boundary_ids.empty();
+  facts.velocity = options.initial_velocity;
+  facts.spacing = options.cell_size;
+  return facts;
+}
+
+bool FemBody::is_held() const
+{
+  return !options.clamped_boundary_ids.empty() ||
+         !options.symmetry_boundary_ids.empty() ||
+         !options.driven_boundary_ids.empty();
 }
 
 std::vector<MaterialSite> FemBody::material_sites() const

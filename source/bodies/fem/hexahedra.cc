@@ -1,9 +1,8 @@
-// What all choices of integration share: material points, steps, reports.
+// Material points of hexahedra, whatever the integration rule: stress, work,
+// states, and what becomes of cells that would turn inside out.
 #include "sabot/bodies/fem/hexahedra.h"
 
 #include "sabot/base/error.h"
-#include "sabot/bodies/fem/b_bar.h"
-#include "sabot/bodies/fem/one_point.h"
 #include "sabot/kernels/polar.h"
 
 #include <cmath>
@@ -24,13 +23,16 @@ Hexahedra::Hexahedra(const std::string &body_name, const FemOptions &options,
 {
 }
 
-std::unique_ptr<Hexahedra>
-Hexahedra::make(const std::string &body_name, const FemOptions &options,
-                std::shared_ptr<const Material> material)
+CellConstants Hexahedra::cell_constants() const
 {
-  if (options.integration == FemOptions::Integration::b_bar)
-    return std::make_unique<BBar>(body_name, options, material);
-  return std::make_unique<OnePoint>(body_name, options, material);
+  CellConstants constants;
+  constants.sound_speed = material->sound_speed();
+  constants.density = material->density();
+  constants.mu = material->shear_modulus();
+  constants.lambda = material->bulk_modulus() - 2. / 3. * constants.mu;
+  constants.linear_bulk = options.bulk_viscosity_linear;
+  constants.quadratic_bulk = options.bulk_viscosity_quadratic;
+  return constants;
 }
 
 void Hexahedra::allocate_points()

@@ -283,6 +283,16 @@ BodyMeasures RigidBody::measure() const
   return measures;
 }
 
+BodyFacts RigidBody::facts() const
+{
+  BodyFacts facts;
+  facts.material = material.get();
+  facts.deforms = false;
+  facts.velocity = options.initial_velocity;
+  facts.spacing = options.cell_size;
+  return facts;
+}
+
 OutputMesh RigidBody::output_mesh() const
 {
   int rank;

@@ -49,8 +49,28 @@ private:
   {
     PackMat F[n_packs];
   };
-  void kinematics(const NodalState &nodes, const std::size_t cell,
-                  const double dt);
+  /** A cell between two positions, and sums over its points. */
+  struct Moving
+  {
+    PackMat F[n_packs], l[n_packs]; // l: see midpoint_increment()
+    Vec mean[8];                    // v times the mean present gradients [m^2]
+    double volume, middle_volume;   // present and mid [m^3]
+    double expansion;               // sum of mid volume tr l [m^3]
+    double shear_bound;             // sum of v_q lambda_max G_q [m]
+  };
+  static double set_up_point(const std::array<Vec, 8> &X, const int q,
+                             Geometry &g);
+  void kinematics(const CellConstants &constants, const NodalState &nodes,
+                  const std::size_t cell, const double dt);
+  void add_points(const NodalState &nodes, const std::size_t e, const int p,
+                  const Vec x[8], Moving &cell);
+  static void add_present_gradients(const Geometry &g, const int p,
+                                    const Pack J, Moving &cell);
+  static double stable_step(const CellConstants &constants,
+                            const double reference_volume, const double dt,
+                            const Moving &cell, double &q);
+  double step_of_quarter_volume(const NodalState &nodes, const std::size_t e,
+                                const Moving &cell) const;
 
   AlignedVector<Geometry> geometry;
   AlignedVector<Motion> motion;

@@ -42,6 +42,12 @@ public:
 
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
+  BodyFacts facts() const override;
+  bool is_held() const override;
+  std::vector<SymmetryPlane> planes_of_symmetry() const override
+  {
+    return symmetry_planes;
+  }
   std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;

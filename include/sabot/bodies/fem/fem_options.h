@@ -2,6 +2,7 @@
 #define sabot_bodies_fem_fem_options_h
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace sabot
@@ -14,23 +15,13 @@ namespace sabot
 struct FemOptions
 {
   static constexpr double never = 1e10;
-  enum class Integration
-  {
-    one_point,
-    b_bar
-  };
-  Integration integration = Integration::one_point;
-  enum class Hourglass
-  {
-    viscous,
-    stiffness
-  };
+  std::string integration = "one point"; // of Registry<Hexahedra>
+  std::string hourglass = "viscous";     // of Registry<OnePoint>
   enum class ObjectiveRate
   {
     jaumann,
     green_naghdi
   };
-  Hourglass hourglass = Hourglass::viscous;
   ObjectiveRate objective_rate = ObjectiveRate::jaumann;
   double hourglass_coefficient = 0.1;
   double bulk_viscosity_linear = 0.06;
@@ -48,6 +39,7 @@ struct FemOptions
   };
   Inversion inversion = Inversion::stop;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  double cell_size = 0.; // that the mesh was asked for [m]
   std::vector<unsigned int> clamped_boundary_ids, symmetry_boundary_ids,
       driven_boundary_ids;
   /** Of the nodes of driven faces; only the held components count. */

@@ -4,6 +4,7 @@
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/fem/cell_kernels.h"
 #include "sabot/bodies/fem/fem_options.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/geometry/hex_mesh.h"
@@ -26,13 +27,16 @@ namespace sabot
 class Hexahedra
 {
 public:
+  // For the registry of rules.
+  static constexpr const char *kind = "integration rule";
+  using Make = std::unique_ptr<Hexahedra>(const std::string &body_name,
+                                          const FemOptions &options,
+                                          std::shared_ptr<const Material>);
+
   Hexahedra(const std::string &body_name, const FemOptions &options,
             std::shared_ptr<const Material> material,
             const unsigned int n_points);
   virtual ~Hexahedra() = default;
-  static std::unique_ptr<Hexahedra>
-  make(const std::string &body_name, const FemOptions &options,
-       std::shared_ptr<const Material> material);
 
   /** Take the cells of @p mesh with these numbers and local nodes. */
   virtual void
@@ -109,6 +113,8 @@ protected:
       @return whether the cell shall rest as it was. */
   bool avoid_inversion(const NodalState &nodes, const std::size_t cell,
                        const double J_old, const double J);
+  /** What the kernels of cells need of material and options. */
+  CellConstants cell_constants() const;
   /** The body's smallest step, and the cell's where asked for. */
   void note_step(const std::size_t cell, const double step)
   {

@@ -4,23 +4,36 @@
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/kernels/pack.h"
 
+#include <memory>
+#include <string>
+
 namespace sabot
 {
 /**
- * One-point hexahedra with Flanagan-Belytschko hourglass control, in total
- * Lagrangian form (doc/theory-fem.md): with the mean gradients B_a of the
- * reference configuration,
+ * One-point hexahedra with hourglass control, in total Lagrangian form
+ * (doc/theory-fem.md): with the mean gradients B_a of the reference
+ * configuration,
  *
- *   F = sum x_a (x) B_a,  f_a = -V_0 J sigma F^-T B_a - hourglass,
- *   gamma_a = h_a - sum_b (h_b X_b) . B_a,  q = sum gamma_a x_a
+ *   F = sum x_a (x) B_a,  f_a = -V_0 J sigma F^-T B_a - hourglass.
  *
- * for stiffness control; viscous control takes gamma and q' = sum gamma_a v_a
- * in the present configuration, where sum gamma_a x_a = 0 (no torque).
- * Cells are computed four at a time, in the lanes of packs.
+ * The forms of hourglass control are Flanagan & Belytschko's (1981) and differ
+ * in the modal forces that they put on the base vectors
+ *
+ *   gamma_a = h_a - sum_b (h_b X_b) . B_a.
+ *
+ * A form is a class in a file of its own (hourglass/), which instantiates the
+ * loop of one_point_loop.h with itself. Cells are computed four at a time, in
+ * the lanes of packs.
  */
 class OnePoint : public Hexahedra
 {
 public:
+  // For the registry of forms.
+  static constexpr const char *kind = "hourglass control";
+  using Make = std::unique_ptr<OnePoint>(const std::string &body_name,
+                                         const FemOptions &options,
+                                         std::shared_ptr<const Material>);
+
   OnePoint(const std::string &body_name, const FemOptions &options,
            std::shared_ptr<const Material> material)
       : Hexahedra(body_name, options, material, 1)
@@ -30,7 +43,6 @@ public:
   void set_up(
       const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
       const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
-  void add_forces(NodalState &nodes, const double dt) override;
   void cell_forces(const NodalState &nodes, const std::size_t cell,
                    Vec force[8]) const override;
   void keep(const std::vector<std::size_t> &kept) override;
@@ -39,7 +51,17 @@ public:
 protected:
   Mat gradient(const std::size_t point) const override;
 
-private:
+  /** Whether the modes that a cell keeps are sum h_b X_b, set once. */
+  virtual bool keeps_reference_modes() const = 0;
+  /** Modal forces of one cell in its present state [N], recomputed for a cell
+      that is about to go.
+      @param kept  what the cell keeps of its modes (Motion::mode)
+      @param mode  in: sum h_a x_a [m]; out: forces
+      @param P     V_0 J sigma F^-T; the modes' part is added */
+  virtual void modal_forces(const Mat &F, const Mat &F_inverse,
+                            const double present_volume, const Vec kept[4],
+                            Vec mode[4], Mat &P) const = 0;
+
   /** Reference data of four cells, read twice per step. */
   struct Geometry
   {
@@ -49,8 +71,8 @@ private:
     Pack size_square; // V_0^(2/3)
     std::uint32_t node[8][n_lanes];
   };
-  /** Per cell what the next step needs. The modes are, for stiffness control,
-      sum h_b X_b, for viscous control the modal forces of the last step. */
+  /** Per cell what the next step needs; what the modes are is up to the form of
+      hourglass control. */
   struct Motion
   {
     PackMat F;
@@ -65,18 +87,16 @@ private:
   };
   static constexpr std::size_t packs_per_batch = batch_size / n_lanes;
 
-  template <bool viscous>
-  void compute(NodalState &nodes, const double dt);
-  template <bool viscous>
-  void kinematics(const NodalState &nodes, const std::size_t pack,
-                  const double dt);
+  /** Subtract the forces of the stress of a pack, and those that pend. */
   void scatter(NodalState &nodes, const std::size_t pack);
-  void fill_up();
 
   AlignedVector<Geometry> geometry;
   AlignedVector<Motion> motion;
   PointBatch batch;
   alignas(64) Pending pending[packs_per_batch];
+
+private:
+  void fill_up();
 };
 } // namespace sabot
 

@@ -19,6 +19,7 @@ struct RigidOptions
   /** Prescribed: the initial velocities for ever, whatever the forces. */
   bool is_prescribed = false;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  double cell_size = 0.; // that the mesh was asked for [m]
   std::array<double, 3> angular_velocity{{0., 0., 0.}}; // [1/s], at the start
 
   static void declare_parameters(Parameters &prm);
@@ -67,6 +68,8 @@ public:
 
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
+  BodyFacts facts() const override;
+  bool is_held() const override { return options.is_prescribed; }
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
   ContactSurface contact_surface() const override;

@@ -1,0 +1,268 @@
+#ifndef sabot_bodies_fem_one_point_loop_h
+#define sabot_bodies_fem_one_point_loop_h
+
+#include "sabot/bodies/fem/cell_kernels.h"
+#include "sabot/bodies/fem/hourglass.h"
+#include "sabot/bodies/fem/one_point.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+/**
+ * The loop over one-point hexahedra with a form of hourglass control compiled
+ * in. @p Form derives from this class and has
+ *
+ *     static constexpr bool needs_velocities;
+ *     void hourglass(const CellConstants &, const FourCells &,
+ *                    const double dt, const std::size_t pack, Motion &kept,
+ *                    Pending &out);
+ *
+ * always inlined, which sets the modal forces, their part of P and the
+ * hourglass energy of four cells.
+ */
+template <typename Form>
+class OnePointLoop : public OnePoint
+{
+public:
+  using OnePoint::OnePoint;
+
+  /** Kinematics, stress and forces, batch by batch. What a batch needs stays in
+      the first-level cache between the three. */
+  void add_forces(NodalState &nodes, const double dt) override
+  {
+    reset_steps();
+    const CellConstants constants = cell_constants();
+    const std::size_t n = size();
+    for (std::size_t begin = 0; begin < n; begin += batch_size)
+    {
+      const std::size_t m = std::min(batch_size, round_up(n - begin, 8)),
+                        first = begin / n_lanes, last = first + m / n_lanes;
+      for (std::size_t pack = first; pack < last; ++pack)
+        kinematics(constants, nodes, pack, dt);
+      update_points(begin, m, dt, batch);
+      for (std::size_t pack = first; pack < last; ++pack)
+        scatter(nodes, pack);
+    }
+  }
+
+protected:
+  /** Four cells as they are now; nodal sums over the corners in the space of
+      the base vectors h_m are [component][mode]. */
+  struct FourCells
+  {
+    const Geometry &g;
+    PackMat F, inverse; // F^-1
+    PackMat S;          // sum B_a (x) B_a [1/m^2]
+    PackMat L;          // sum v_a (x) B_a [1/s]
+    Pack J, J_inverse;
+    Pack J_root;      // J^(1/3)
+    Pack modal[3][4]; // sum h_a x_a [m]
+    Pack velocity[3][8];
+  };
+
+private:
+  void kinematics(const CellConstants &constants, const NodalState &nodes,
+                  const std::size_t pack, const double dt);
+  void ask_for(const std::size_t pack) const;
+  static PackMat nodal_gradient(const Geometry &g, const Vec *nodal,
+                                Pack value[3][8]);
+  void rest_what_inverts(const NodalState &nodes, const std::size_t pack,
+                         const Pack J_old, FourCells &cells);
+  void store_strain(const PackMat &l, const FourCells &cells, const Pack J_old,
+                    const std::size_t k);
+  static void invert(FourCells &cells, Pending &out);
+  static void present_squares(const FourCells &cells, Pack G[6]);
+  Pack stable_step(const CellConstants &constants, const FourCells &cells,
+                   const Pack trace, const double dt, const std::size_t k);
+  static Pack step_of_quarter_volume(const FourCells &cells);
+};
+
+/** All cache lines of the pack that comes next. */
+template <typename Form>
+SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
+{
+  if (pack >= geometry.size())
+    return;
+  const auto ask = [](const auto &data)
+  {
+    const auto *const bytes = reinterpret_cast<const char *>(&data);
+    for (std::size_t i = 0; i < sizeof(data); i += 64)
+      __builtin_prefetch(bytes + i);
+  };
+  ask(geometry[pack]);
+  ask(motion[pack]);
+}
+
+/** sum a_a (x) B_a of nodal vectors, which are kept by component. */
+template <typename Form>
+SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
+                                                         const Vec *const nodal,
+                                                         Pack value[3][8])
+{
+  PackMat sum = {};
+  for (int a = 0; a < 8; ++a)
+  {
+    Pack p[3];
+    gather(nodal, g.node[a], p);
+    for (int i = 0; i < 3; ++i)
+    {
+      value[i][a] = p[i];
+      for (int j = 0; j < 3; ++j)
+        sum.m[i][j] += p[i] * g.B[a][j];
+    }
+  }
+  return sum;
+}
+
+/** Cells that lost a third of their volume in one step are judged. */
+template <typename Form>
+SABOT_IN_LOOP void
+OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
+                                      const std::size_t pack, const Pack J_old,
+                                      FourCells &cells)
+{
+  const auto lost = !(cells.J > 2. / 3. * J_old);
+  if (lost[0] | lost[1] | lost[2] | lost[3])
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    {
+      const std::size_t e = pack * n_lanes + lane;
+      if (lost[lane] && e < size() &&
+          avoid_inversion(nodes, e, J_old[lane], cells.J[lane]))
+      {
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            cells.F.m[i][j][lane] = motion[pack].F.m[i][j][lane];
+        cells.J[lane] = J_old[lane];
+      }
+    }
+}
+
+/** What the material needs: strain, spin, J and half the mid volume. */
+template <typename Form>
+SABOT_IN_LOOP void
+OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
+                                 const Pack J_old, const std::size_t k)
+{
+  for (int d = 0; d < 3; ++d)
+    store_pack(&batch.strain[d][k], l.m[d][d]);
+  store_shear_and_spin(l, batch, k);
+  store_pack(&batch.jacobian[k], cells.J);
+  store_pack(&batch.half_volume[k], 0.25 * cells.g.volume * (cells.J + J_old));
+}
+
+/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces. */
+template <typename Form>
+SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
+{
+  const PackMat adjoint = adjugate(cells.F);
+  cells.J_inverse = 1. / cells.J;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+    {
+      cells.inverse.m[i][j] = cells.J_inverse * adjoint.m[i][j];
+      out.stress_to_force.m[j][i] = cells.g.volume * adjoint.m[i][j];
+    }
+}
+
+/** G = F^-T S F^-1, the sum of squares of the present gradients. */
+template <typename Form>
+SABOT_IN_LOOP void OnePointLoop<Form>::present_squares(const FourCells &cells,
+                                                       Pack G[6])
+{
+  const PackMat &inverse = cells.inverse;
+  const PackMat half = multiply(cells.S, inverse);
+  constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (int n = 0; n < 6; ++n)
+    G[n] = inverse.m[0][row[n]] * half.m[0][column[n]] +
+           inverse.m[1][row[n]] * half.m[1][column[n]] +
+           inverse.m[2][row[n]] * half.m[2][column[n]];
+}
+
+/**
+ * Stable step, and the bulk viscosity that shortens it:
+ *
+ *   omega^2 <= 8 V/m (lambda tr G + 2 mu lambda_max G)  (doc/theory-fem.md),
+ *   q = rho h (c1 c |d| + c2 h d^2) in compression,
+ *
+ * with the thickness h = (2 lambda_max G)^(-1/2), that of a slab. The damping
+ * ratio of the cell's own compression is xi = c1 + c2 h |d|/c.
+ */
+template <typename Form>
+SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
+    const CellConstants &constants, const FourCells &cells, const Pack trace,
+    const double dt, const std::size_t k)
+{
+  const double c = constants.sound_speed, density = constants.density,
+               c1 = constants.linear_bulk, c2 = constants.quadratic_bulk;
+  Pack G[6];
+  present_squares(cells, G);
+  const Pack trace_G = G[0] + G[1] + G[2];
+  const Pack largest = largest_eigenvalue_bound(G);
+  const Pack thickness = pack_sqrt(0.5 / largest);
+  const Pack elastic_step =
+      2. / pack_sqrt(8. * cells.J / density *
+                     (std::max(0., constants.lambda) * trace_G +
+                      2. * constants.mu * largest));
+  const double rate_factor = dt > 0. ? 1. / dt : 0.;
+  const Pack zero = {};
+  const Pack closing = pack_max(zero, -rate_factor * trace);
+  store_pack(&batch.viscous_pressure[k],
+             density * cells.J_inverse * thickness * closing *
+                 (c1 * c + c2 * thickness * closing));
+  return damped_step(elastic_step, c1 + c2 / c * thickness * closing);
+}
+
+/** In which the present velocities take a quarter of the volume. */
+template <typename Form>
+SABOT_IN_LOOP Pack
+OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
+{
+  constexpr double slowest = 1e-300; // [1/s], so that nothing divides by zero
+  const Pack zero = {};
+  Pack rate = zero;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      rate += cells.L.m[i][j] * cells.inverse.m[j][i];
+  return 0.25 / pack_max(-rate, slowest + zero);
+}
+
+template <typename Form>
+void OnePointLoop<Form>::kinematics(const CellConstants &constants,
+                                    const NodalState &nodes,
+                                    const std::size_t pack, const double dt)
+{
+  const bool shrinks = options.inversion == FemOptions::Inversion::shrink;
+  Motion &kept = motion[pack];
+  Pending &out = pending[pack % packs_per_batch];
+  const std::size_t k = pack % packs_per_batch * n_lanes;
+  FourCells cells{geometry[pack], {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  ask_for(pack + 1);
+
+  Pack x[3][8];
+  cells.F = nodal_gradient(cells.g, nodes.position.data(), x);
+  const Pack J_old = determinant(kept.F);
+  cells.J = determinant(cells.F);
+  rest_what_inverts(nodes, pack, J_old, cells);
+  const PackMat l = midpoint_increment(kept.F, cells.F);
+  kept.F = cells.F;
+  const Pack trace = l.m[0][0] + l.m[1][1] + l.m[2][2];
+  store_strain(l, cells, J_old, k);
+  invert(cells, out);
+  const Pack *const s = cells.g.square;
+  cells.S = {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
+  Pack step = stable_step(constants, cells, trace, dt, k);
+
+  cells.J_root = pack_cbrt(cells.J);
+  for (int i = 0; i < 3; ++i)
+    hourglass_sums(x[i], cells.modal[i]);
+  if (Form::needs_velocities || shrinks)
+    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.velocity);
+  if (shrinks)
+    step = pack_min(step, step_of_quarter_volume(cells));
+  static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, kept, out);
+  store_pack(&batch.step[k], step);
+}
+} // namespace sabot
+
+#endif
