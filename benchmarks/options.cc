@@ -31,7 +31,7 @@ void run(benchmark::State &state, World &world, const bool updates)
     n.velocity[i] = vec(-rate * X[0] + 0.3 * rate * X[1], 0.2 * rate * X[1],
                         0.1 * rate * X[2]);
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   unsigned int step = 0;
   for (auto _ : state)
   {

@@ -42,10 +42,7 @@ public:
   std::vector<std::size_t> particles_on(const std::uint32_t faces) const;
 
   /** Where the model is cut, the same on every rank. */
-  const std::vector<SymmetryPlane> &planes_of_symmetry() const
-  {
-    return symmetry_planes;
-  }
+  const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
   /** All particles: any may come to lie open, so all may touch faces. */
   ContactSurface contact_surface(const double bulk_modulus,
                                  const double spacing) const;

@@ -69,7 +69,7 @@ public:
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
-    return surface.planes_of_symmetry();
+    return surface.planes();
   }
   std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
