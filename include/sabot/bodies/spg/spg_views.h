@@ -26,10 +26,15 @@ public:
   {
   }
 
+  // Owned particles by local index, now
+  /** Zero normal where it does not lie on the surface of the start. */
   SurfacePoint surface_point(const std::size_t i) const override;
   VolumePoint volume_point(const std::size_t i) const override;
+  /** All that have a failed bond: they may meet others again. */
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
+  /** Of the start, the same mean along all axes in a cloud of cells' nodes
+      [m]. */
   std::array<double, 3> lattice_spacing() const override;
   std::size_t n_bonds() const override;
   std::vector<Fragment> connected_pieces() const override;
