@@ -56,7 +56,7 @@ double shared_part(const SpgBody &body, const SpgBody &other)
   const NodalState &mine = body.nodes(), &its = other.nodes();
   std::vector<VolumePoint> volume;
   for (std::size_t j = 0; j < its.n_owned; ++j)
-    volume.push_back(other.volume_point(j));
+    volume.push_back(other.particles()->volume_point(j));
   double sum = 0.;
   for (std::size_t i = 0; i < mine.n_owned; ++i)
     for (std::size_t j = 0; j < its.n_owned; ++j)
