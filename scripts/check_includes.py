@@ -11,7 +11,7 @@ import tempfile
 
 FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
         "bodies/rigid", "bodies/spg", "couplings", "integrator", "output", "simulation",
-        "study", ""}
+        "study", "reference", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
 # Folder: folders or single headers that it may include, besides its own.
 ALLOWED = {
@@ -30,6 +30,7 @@ ALLOWED = {
     "output": {"base", BODY, COUPLING},
     "simulation": FREE,
     "study": {"base", "output", "simulation"},
+    "reference": {"base", "simulation", "study"},
     "charts": set(),
     "": FREE,
 }

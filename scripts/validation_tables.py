@@ -177,6 +177,25 @@ def print_energies(study):
            if row["status"] == "completed"])
 
 
+def print_stamp(studies):
+    """The commit of the source, and how many builds made the runs."""
+    commit = subprocess.run(["git", "-C", ROOT, "describe", "--always",
+                             "--dirty"], stdout=subprocess.PIPE,
+                            stderr=subprocess.DEVNULL,
+                            universal_newlines=True).stdout.strip()
+    builds = set()
+    for study in studies.values():
+        for row in study.rows:
+            path = os.path.join(study.runs, row["run"], "build.txt")
+            if os.path.exists(path):
+                with open(path) as file:
+                    builds.add(file.read().strip())
+    print("Tables of the program of commit %s%s.\n" % (
+        commit or "unknown",
+        "; runs of %d builds are among them" % len(builds)
+        if len(builds) > 1 else ""))
+
+
 def print_targets(studies):
     rows = []
 
@@ -282,6 +301,7 @@ def main():
     if not studies:
         raise SystemExit("error: \"%s\" holds no study; run "
                          "scripts/validation.sh first" % arguments.folder)
+    print_stamp(studies)
     print_targets(studies)
     for study in studies.values():
         print_study(study)

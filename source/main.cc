@@ -1,5 +1,7 @@
+// The program: its command line, and what each command calls.
 #include "sabot/base/parameter_file.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/reference/reference.h"
 #include "sabot/simulation/plan.h"
 #include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
@@ -12,8 +14,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <functional>
 #include <iostream>
 
 namespace
@@ -31,72 +35,102 @@ struct Arguments
   PictureArguments picture;
 };
 
+/** What the command line asks for. A study starts processes that use MPI and
+    must not be one itself. */
+struct Action
+{
+  std::function<ExitCode(const Arguments &)> run;
+  bool uses_mpi = true;
+};
+
+bool is_first_rank()
+{
+  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+}
+
 /** "file:line: message" of bad input. */
-std::string located(const InputError &error, const ParameterFile *file)
+std::string located(const InputError &error, const ParameterFile &file)
 {
   const std::string message = error.what();
-  if (file == nullptr || error.parameter.empty())
+  if (error.parameter.empty())
     return message;
-  const std::string origin = file->origin(error.parameter);
+  const std::string origin = file.origin(error.parameter);
   if (message.compare(0, origin.size(), origin) == 0)
     return message;
   return origin + ": " + error.parameter + ": " + message;
 }
 
-ExitCode run_scene(const Arguments &arguments, const bool check_only)
+/** Build the scene of @p file and do @p work with it; what is wrong with the
+    scene is told with the file's lines. */
+template <typename Work>
+ExitCode with_scene(const ParameterFile &file, const Work &work)
 {
-  const ParameterFile file(arguments.scene, arguments.overrides);
   try
   {
     Scene scene(file, MPI_COMM_WORLD);
-    if (!check_only)
-      return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
-          .execute();
-    scene.distribute();
-    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    {
-      for (const std::string &warning : scene.warnings)
-        std::cout << "warning: " << warning << "\n";
-      for (const std::string &note : scene.notes)
-        std::cout << note << "\n";
-      std::cout << arguments.scene << " is valid:";
-      for (const auto &body : scene.bodies)
-        std::cout << " " << body->name << " (" << body->n_items() << " "
-                  << body->item_name() << ")";
-      std::cout << std::endl;
-    }
+    return work(scene);
   }
   catch (const InputError &error)
   {
-    throw InputError("", located(error, &file));
+    throw InputError("", located(error, file));
   }
-  return ExitCode::done;
+}
+
+ExitCode run_scene(const Arguments &arguments)
+{
+  const ParameterFile file(arguments.scene, arguments.overrides);
+  return with_scene(file,
+                    [&](Scene &scene)
+                    {
+                      return Run(scene, arguments.folder, arguments.quiet,
+                                 MPI_COMM_WORLD)
+                          .execute();
+                    });
+}
+
+ExitCode check_scene(const Arguments &arguments)
+{
+  const ParameterFile file(arguments.scene, arguments.overrides);
+  return with_scene(file,
+                    [&](Scene &scene)
+                    {
+                      scene.distribute();
+                      if (!is_first_rank())
+                        return ExitCode::done;
+                      for (const std::string &warning : scene.warnings)
+                        std::cout << "warning: " << warning << "\n";
+                      for (const std::string &note : scene.notes)
+                        std::cout << note << "\n";
+                      std::cout << arguments.scene << " is valid:";
+                      for (const auto &body : scene.bodies)
+                        std::cout << " " << body->name << " ("
+                                  << body->n_items() << " " << body->item_name()
+                                  << ")";
+                      std::cout << std::endl;
+                      return ExitCode::done;
+                    });
 }
 
 ExitCode plan_scene(const Arguments &arguments)
 {
   const ParameterFile file(arguments.scene, arguments.overrides);
-  try
-  {
-    Scene scene(file, MPI_COMM_WORLD);
-    const PhysicsPlan physics = plan_physics(scene);
-    constexpr double calibration_seconds = 1.;
-    const CostPlan cost =
-        plan_cost(scene, physics, calibration_seconds, MPI_COMM_WORLD);
-    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    {
-      for (const std::string &warning : scene.warnings)
-        std::cout << "warning: " << warning << "\n";
-      std::cout << to_text(physics, cost) << std::flush;
-      if (!arguments.json_file.empty())
-        write_text(arguments.json_file, to_json(physics, cost).dump(2) + "\n");
-    }
-  }
-  catch (const InputError &error)
-  {
-    throw InputError("", located(error, &file));
-  }
-  return ExitCode::done;
+  return with_scene(file,
+                    [&](Scene &scene)
+                    {
+                      const PhysicsPlan physics = plan_physics(scene);
+                      constexpr double calibration_seconds = 1.;
+                      const CostPlan cost = plan_cost(
+                          scene, physics, calibration_seconds, MPI_COMM_WORLD);
+                      if (!is_first_rank())
+                        return ExitCode::done;
+                      for (const std::string &warning : scene.warnings)
+                        std::cout << "warning: " << warning << "\n";
+                      std::cout << to_text(physics, cost) << std::flush;
+                      if (!arguments.json_file.empty())
+                        write_text(arguments.json_file,
+                                   to_json(physics, cost).dump(2) + "\n");
+                      return ExitCode::done;
+                    });
 }
 
 ExitCode resume_run(const Arguments &arguments)
@@ -104,18 +138,15 @@ ExitCode resume_run(const Arguments &arguments)
   const ResumePoint point =
       find_resume_point(arguments.folder, arguments.overrides, MPI_COMM_WORLD);
   const ParameterFile file(point.scene, arguments.overrides);
-  try
-  {
-    Scene scene(file, MPI_COMM_WORLD);
-    scene.warnings.insert(scene.warnings.begin(), point.warnings.begin(),
-                          point.warnings.end());
-    return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
-        .execute(point.checkpoint);
-  }
-  catch (const InputError &error)
-  {
-    throw InputError("", located(error, &file));
-  }
+  return with_scene(
+      file,
+      [&](Scene &scene)
+      {
+        scene.warnings.insert(scene.warnings.begin(), point.warnings.begin(),
+                              point.warnings.end());
+        return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
+            .execute(point.checkpoint);
+      });
 }
 
 ExitCode describe_parameters(const Arguments &arguments)
@@ -125,13 +156,24 @@ ExitCode describe_parameters(const Arguments &arguments)
     StudyFile::declare(prm, {"<name>"}, {"<name>"});
   else
     Scene::declare(prm, nullptr);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-  {
-    if (arguments.format == "markdown")
-      print_manual(prm, std::cout);
-    else
-      sabot::print_parameters(prm, arguments.format, std::cout);
-  }
+  if (!is_first_rank())
+    return ExitCode::done;
+  if (arguments.format == "markdown")
+    print_manual(prm, std::cout);
+  else
+    print_parameters(prm, arguments.format, std::cout);
+  return ExitCode::done;
+}
+
+ExitCode write_reference(const Arguments &arguments)
+{
+  if (!is_first_rank())
+    return ExitCode::done;
+  make_folder(arguments.folder);
+  std::vector<ReferencePage> pages = reference_pages();
+  pages.push_back({"problems.md", problems_page()});
+  for (const ReferencePage &page : pages)
+    write_text(arguments.folder + "/" + page.file, page.text);
   return ExitCode::done;
 }
 
@@ -150,13 +192,13 @@ ExitCode run_verification(const Arguments &arguments)
 }
 
 /** Run a command; what it throws becomes a message and an exit code. */
-template <typename Action>
-int report_errors(const bool speaks, const Action &action)
+template <typename Work>
+int report_errors(const bool speaks, const Work &work)
 {
   ExitCode code = ExitCode::done;
   try
   {
-    code = action();
+    code = work();
   }
   catch (const InputError &error)
   {
@@ -172,105 +214,170 @@ int report_errors(const bool speaks, const Action &action)
   }
   return static_cast<int>(code);
 }
+
+void add_overrides(CLI::App &command, std::vector<std::string> &overrides,
+                   const std::string &meaning)
+{
+  command.add_option("--set", overrides, meaning)->allow_extra_args(false);
+}
+
+void add_scene(CLI::App &command, Arguments &arguments)
+{
+  command.add_option("scene", arguments.scene, "Scene file (.prm)")->required();
+  add_overrides(command, arguments.overrides,
+                "Replace an entry: \"Section/Name=value\"");
+}
+
+void add_run(CLI::App &app, Arguments &arguments, Action &action)
+{
+  CLI::App &command = *app.add_subcommand("run", "Run a scene");
+  add_scene(command, arguments);
+  command.add_option("-o,--output", arguments.folder, "Folder for the results")
+      ->capture_default_str();
+  command.add_flag("--quiet", arguments.quiet, "Write to log.txt only");
+  command.callback([&]() { action = {run_scene}; });
+}
+
+void add_resume(CLI::App &app, Arguments &arguments, Action &action)
+{
+  CLI::App &command = *app.add_subcommand(
+      "resume", "Continue an interrupted run from its newest checkpoint");
+  command.add_option("folder", arguments.folder, "Folder with the results")
+      ->required();
+  add_overrides(command, arguments.overrides,
+                "Replace an entry on which the state does not depend: "
+                "\"End time=value\"");
+  command.add_flag("--quiet", arguments.quiet, "Write to log.txt only");
+  command.callback([&]() { action = {resume_run}; });
+}
+
+void add_check(CLI::App &app, Arguments &arguments, Action &action)
+{
+  CLI::App &command =
+      *app.add_subcommand("check", "Check a scene without running it");
+  add_scene(command, arguments);
+  command.callback([&]() { action = {check_scene}; });
+}
+
+void add_plan(CLI::App &app, Arguments &arguments, Action &action)
+{
+  CLI::App &command = *app.add_subcommand(
+      "plan", "Say what a scene needs and costs before running it");
+  add_scene(command, arguments);
+  command.add_option("--json", arguments.json_file,
+                     "Also write it to this file");
+  command.callback([&]() { action = {plan_scene}; });
+}
+
+void add_study(CLI::App &app, StudyArguments &study, Action &action)
+{
+  CLI::App &command = *app.add_subcommand(
+      "study", "Vary the parameters of a scene; tables, charts and a report");
+  command.add_option("study", study.file, "Study file (.prm)")->required();
+  add_overrides(command, study.overrides,
+                "Replace an entry of the study: \"Section/Name=value\"");
+  command.add_option("-o,--output", study.folder, "Folder")
+      ->default_val("results-study");
+  command.add_option("--runs", study.runs,
+                     "Folder of the runs, which several studies may share "
+                     "(default: runs in the study's folder)");
+  command.add_option("--processes", study.n_processes,
+                     "Runs at the same time; 0: as the study file says");
+  command.add_flag("--retry", study.retry, "Run again what failed");
+  command.add_flag("--renew", study.renew,
+                   "Run again what another build of the program made");
+  command.add_flag("--list", study.list,
+                   "Check the study and list its runs without running them");
+  command.add_flag("--quiet", study.quiet, "Say nothing");
+  command.callback(
+      [&]()
+      {
+        action = {[](const Arguments &all) { return run_study(all.study); },
+                  false};
+      });
+}
+
+void add_picture(CLI::App &app, PictureArguments &picture, Action &action)
+{
+  CLI::App &command = *app.add_subcommand(
+      "picture", "Draw a section through the bodies of a run as PNG");
+  command.add_option("folder", picture.folder, "Folder with the results")
+      ->required();
+  command.add_option("-o,--output", picture.file,
+                     "Picture (default: section.png in the folder)");
+  command.add_option("--field", picture.field,
+                     "Field that colours the bodies (default: effective "
+                     "plastic strain, or velocity where nothing can yield)");
+  command.add_option("--time", picture.times,
+                     "Times, separated by commas: \"20 us, 0.1 ms\" (default: "
+                     "the last)");
+  command
+      .add_option("--normal", picture.normal,
+                  "Axis across the plane of the section")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  command.add_option("--at", picture.position,
+                     "Position of the plane along it: \"0 mm\"");
+  command.add_option("--range", picture.range,
+                     "Limits of the colours: \"0, 1\" (SI)");
+  command.add_option("--window", picture.window,
+                     "Part to show, to the right and up: \"-30 mm, 30 mm, -40 "
+                     "mm, 20 mm\"");
+  command.add_option("--title", picture.title, "Title (default: the scene's)");
+  command.callback(
+      [&]()
+      {
+        action = {[](const Arguments &all)
+                  { return draw_picture(all.picture); },
+                  false};
+      });
+}
+
+void add_manuals(CLI::App &app, Arguments &arguments, Action &action)
+{
+  CLI::App &parameters =
+      *app.add_subcommand("parameters", "Print the manual of all entries");
+  parameters.add_option("--format", arguments.format, "")
+      ->check(CLI::IsMember({"markdown", "prm", "json", "xml"}))
+      ->capture_default_str();
+  parameters.add_flag("--study", arguments.is_about_studies,
+                      "Of study files instead of scenes");
+  parameters.callback([&]() { action = {describe_parameters}; });
+  CLI::App &reference = *app.add_subcommand(
+      "reference", "Write the pages of the reference: entries, problems, "
+                   "fields, energies, exit codes");
+  reference.add_option("folder", arguments.folder, "Folder for the pages")
+      ->required();
+  reference.callback([&]() { action = {write_reference}; });
+}
+
+void add_verify(CLI::App &app, Arguments &arguments, Action &action)
+{
+  CLI::App &command = *app.add_subcommand(
+      "verify", "Compare verification problems with exact answers");
+  command.add_option("name", arguments.problems,
+                     "Problems or labels; none: all quick ones");
+  command.add_flag("--list", arguments.list, "Name the problems");
+  command.add_option("--json", arguments.json_file,
+                     "Write the checks to this file");
+  command.callback([&]() { action = {run_verification}; });
+}
 } // namespace
 
 int main(int argc, char **argv)
 {
   Arguments arguments;
+  Action action;
   CLI::App app("Sabot: coupled FEM-SPG simulation of impact");
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
-  const auto add_scene = [&](CLI::App *command)
-  {
-    command->add_option("scene", arguments.scene, "Scene file (.prm)")
-        ->required();
-    command
-        ->add_option("--set", arguments.overrides,
-                     "Replace an entry: \"Section/Name=value\"")
-        ->allow_extra_args(false);
-  };
-  CLI::App *const run = app.add_subcommand("run", "Run a scene");
-  add_scene(run);
-  run->add_option("-o,--output", arguments.folder, "Folder for the results")
-      ->capture_default_str();
-  run->add_flag("--quiet", arguments.quiet, "Write to log.txt only");
-  CLI::App *const resume = app.add_subcommand(
-      "resume", "Continue an interrupted run from its newest checkpoint");
-  resume->add_option("folder", arguments.folder, "Folder with the results")
-      ->required();
-  resume
-      ->add_option("--set", arguments.overrides,
-                   "Replace an entry on which the state does not depend: "
-                   "\"End time=value\"")
-      ->allow_extra_args(false);
-  resume->add_flag("--quiet", arguments.quiet, "Write to log.txt only");
-  CLI::App *const check =
-      app.add_subcommand("check", "Check a scene without running it");
-  add_scene(check);
-  CLI::App *const plan = app.add_subcommand(
-      "plan", "Say what a scene needs and costs before running it");
-  add_scene(plan);
-  plan->add_option("--json", arguments.json_file, "Also write it to this file");
-  CLI::App *const study = app.add_subcommand(
-      "study", "Vary the parameters of a scene; tables, charts and a report");
-  study->add_option("study", arguments.study.file, "Study file (.prm)")
-      ->required();
-  study
-      ->add_option("--set", arguments.study.overrides,
-                   "Replace an entry of the study: \"Section/Name=value\"")
-      ->allow_extra_args(false);
-  study->add_option("-o,--output", arguments.study.folder, "Folder")
-      ->default_val("results-study");
-  study->add_option("--runs", arguments.study.runs,
-                    "Folder of the runs, which several studies may share "
-                    "(default: runs in the study's folder)");
-  study->add_option("--processes", arguments.study.n_processes,
-                    "Runs at the same time; 0: as the study file says");
-  study->add_flag("--retry", arguments.study.retry, "Run again what failed");
-  study->add_flag("--renew", arguments.study.renew,
-                  "Run again what another build of the program made");
-  study->add_flag("--list", arguments.study.list,
-                  "Check the study and list its runs without running them");
-  study->add_flag("--quiet", arguments.study.quiet, "Say nothing");
-  CLI::App *const picture = app.add_subcommand(
-      "picture", "Draw a section through the bodies of a run as PNG");
-  PictureArguments &drawn = arguments.picture;
-  picture->add_option("folder", drawn.folder, "Folder with the results")
-      ->required();
-  picture->add_option("-o,--output", drawn.file,
-                      "Picture (default: section.png in the folder)");
-  picture->add_option("--field", drawn.field,
-                      "Field that colours the bodies (default: effective "
-                      "plastic strain, or velocity where nothing can yield)");
-  picture->add_option("--time", drawn.times,
-                      "Times, separated by commas: \"20 us, 0.1 ms\" (default: "
-                      "the last)");
-  picture
-      ->add_option("--normal", drawn.normal,
-                   "Axis across the plane of the section")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  picture->add_option("--at", drawn.position,
-                      "Position of the plane along it: \"0 mm\"");
-  picture->add_option("--range", drawn.range,
-                      "Limits of the colours: \"0, 1\" (SI)");
-  picture->add_option("--window", drawn.window,
-                      "Part to show, to the right and up: \"-30 mm, 30 mm, -40 "
-                      "mm, 20 mm\"");
-  picture->add_option("--title", drawn.title, "Title (default: the scene's)");
-  CLI::App *const parameters =
-      app.add_subcommand("parameters", "Print the manual of all entries");
-  parameters->add_option("--format", arguments.format, "")
-      ->check(CLI::IsMember({"markdown", "prm", "json", "xml"}))
-      ->capture_default_str();
-  parameters->add_flag("--study", arguments.is_about_studies,
-                       "Of study files instead of scenes");
-  CLI::App *const verification = app.add_subcommand(
-      "verify", "Compare verification problems with exact answers");
-  verification->add_option("name", arguments.problems,
-                           "Problems or labels; none: all quick ones");
-  verification->add_flag("--list", arguments.list, "Name the problems");
-  verification->add_option("--json", arguments.json_file,
-                           "Write the checks to this file");
+  add_run(app, arguments, action);
+  add_resume(app, arguments, action);
+  add_check(app, arguments, action);
+  add_plan(app, arguments, action);
+  add_study(app, arguments.study, action);
+  add_picture(app, arguments.picture, action);
+  add_manuals(app, arguments, action);
+  add_verify(app, arguments, action);
   try
   {
     app.parse(argc, argv);
@@ -279,26 +386,12 @@ int main(int argc, char **argv)
   {
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
-
-  // A study starts processes that use MPI and must not be one itself.
-  if (*study)
-    return report_errors(true, [&]() { return run_study(arguments.study); });
-  if (*picture)
-    return report_errors(true,
-                         [&]() { return draw_picture(arguments.picture); });
+  const auto act = [&]() { return action.run(arguments); };
+  if (!action.uses_mpi)
+    return report_errors(true, act);
 
   // What exceeds a limit on files is an error of the write, as a full disk is.
   std::signal(SIGXFSZ, SIG_IGN);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const bool speaks =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  return report_errors(speaks,
-                       [&]()
-                       {
-                         return *parameters     ? describe_parameters(arguments)
-                                : *verification ? run_verification(arguments)
-                                : *resume       ? resume_run(arguments)
-                                : *plan         ? plan_scene(arguments)
-                                        : run_scene(arguments, bool(*check));
-                       });
+  return report_errors(is_first_rank(), act);
 }

@@ -14,12 +14,7 @@ inline double balance(const World &world)
     body->add_energies(e);
   for (const auto &coupling : world.couplings)
     coupling->add_energies(e);
-  ExactSum total = e.kinetic;
-  for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
-                               &e.contact, &e.friction, &e.eroded, &e.tie})
-    total.add(*part);
-  total.subtract(e.external);
-  return total.value();
+  return e.total().value();
 }
 
 /** Follows the largest deviation of the balance from its first value, over the

@@ -50,10 +50,10 @@ Collision collide(const double stiffness_scale)
     n.velocity[i] = vec(x > 0. ? 60. : -60., 0., 0.);
   }
   world.integrator.initialize();
-  while (body.fragments().size() < 2 && world.integrator.time < 20e-6)
+  while (body.connected_pieces().size() < 2 && world.integrator.time < 20e-6)
     world.advance(0.5);
   Collision result;
-  result.n_pieces = body.fragments().size();
+  result.n_pieces = body.connected_pieces().size();
   // The break is over when nothing fails any more.
   const double broken = world.integrator.time;
   while (world.integrator.time < 2. * broken)

@@ -94,7 +94,10 @@ class Soft : public Elastic
 {
 public:
   Soft() : Elastic(ElasticConstants{rho, E, 0.33}) {}
-  double initial_yield_stress() const override { return std::sqrt(3.) * 1e6; }
+  std::optional<double> initial_yield_stress() const override
+  {
+    return std::sqrt(3.) * 1e6;
+  }
 };
 
 struct Slide

@@ -60,8 +60,8 @@ void few_particles(std::vector<Check> &checks, const int n)
       {who + "position, relative error", 0., error, 1e-12, "1", "free flight"});
   checks.push_back(
       {who + "energy residual", 0., watch.residual(), 1e-12, "1", "free"});
-  checks.push_back({who + "pieces", 0., double(body.fragments().size()), 0.,
-                    "1", "", Check::Kind::reported});
+  checks.push_back({who + "pieces", 0., double(body.connected_pieces().size()),
+                    0., "1", "", Check::Kind::reported});
 }
 
 /** A block flies apart and loses all bonds but those between @p n_whole of its
@@ -110,7 +110,7 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
   run(1e-6);
   const double bonds_left = measure(body, "bonds broken") *
                             (1. / measure(body, "bonds broken fraction") - 1.);
-  const std::size_t n_pieces = body.fragments().size();
+  const std::size_t n_pieces = body.connected_pieces().size();
   // Back together: the ledger goes on with the kinetic energy put in.
   for (std::size_t i = 0; i < n.n_owned; ++i)
     n.velocity[i] = -2e4 * n.reference_position[i];

@@ -143,6 +143,21 @@ bool verify(const std::vector<std::string> &names, const std::string &json_file)
   return all;
 }
 
+std::string problems_page()
+{
+  std::ostringstream text;
+  text << "<!-- Written by `sabot reference doc/reference`; not to be edited. "
+          "-->\n# Verification problems\n\n"
+       << "`sabot verify NAME` runs a problem, `sabot verify LABEL` all that "
+          "have the label: quick ones are part of the tests, long ones take "
+          "minutes, extremes are the suite of extreme conditions.\n\n"
+          "| problem | labels | what it compares |\n|---|---|---|\n";
+  for (const VerificationProblem &p : verification_problems())
+    text << "| " << p.name << " | " << p.label << " | " << p.description
+         << " |\n";
+  return text.str();
+}
+
 void list_problems()
 {
   for (const VerificationProblem &p : verification_problems())

@@ -62,6 +62,9 @@ bool verify(const std::vector<std::string> &names,
 
 /** Print name, label and description of every problem. */
 void list_problems();
+
+/** The same as a page of the reference, in Markdown. */
+std::string problems_page();
 } // namespace sabot
 
 #endif

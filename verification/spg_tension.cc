@@ -68,7 +68,7 @@ std::vector<Check> tension_bar()
       watch.look();
       if (std::isnan(torn))
       {
-        const auto pieces = body.fragments();
+        const auto pieces = body.connected_pieces();
         if (pieces.size() > 1 && pieces[1].mass > 0.1 * mass)
           torn = world.integrator.time;
       }
@@ -78,7 +78,7 @@ std::vector<Check> tension_bar()
     watch.look();
     const auto after = world.momenta();
     double change = 0., piece_momentum[3] = {0., 0., 0.}, piece_mass = 0.;
-    const auto pieces = body.fragments();
+    const auto pieces = body.connected_pieces();
     for (const Fragment &f : pieces)
     {
       piece_mass += f.mass;

@@ -57,9 +57,7 @@ struct World
       body->add_energies(e);
     for (auto &coupling : couplings)
       coupling->add_energies(e);
-    ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
-                      &e.contact, &e.friction, &e.eroded},
-                     MPI_COMM_WORLD);
+    e.reduce(MPI_COMM_WORLD);
     return {{e.kinetic.value(),
              e.internal.value() + e.stabilization.value() +
                  e.hourglass.value() + e.eroded.value(),
@@ -98,10 +96,7 @@ inline std::shared_ptr<Material> elastic(const double nu = 0.33)
 
 inline double measure(const Body &body, const std::string &name)
 {
-  for (const Measure &m : body.measure())
-    if (m.name == name)
-      return m.value;
-  return std::nan("");
+  return body.measure().find(name);
 }
 
 /** Random velocities of about @p speed on all owned nodes. */

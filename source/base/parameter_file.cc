@@ -1,7 +1,10 @@
-// Reads parameter files with includes and overrides; writes manuals.
+// Reads parameter files with includes and overrides, and says where each entry
+// comes from.
 #include "sabot/base/parameter_file.h"
 
-#include <deal.II/base/parameter_handler.h>
+#include "sabot/base/declared_tree.h"
+#include "sabot/base/entry_aliases.h"
+#include "sabot/base/text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,58 +20,18 @@ namespace
 {
 using nlohmann::ordered_json;
 
-std::string trim(const std::string &text)
+/** "Section/Sub/Name"; an empty name gives the path of the section. */
+std::string path_of(const std::vector<std::string> &section,
+                    const std::string &name = "")
 {
-  const char *const blank = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blank),
-                    last = text.find_last_not_of(blank);
-  return first == std::string::npos ? std::string()
-                                    : text.substr(first, last - first + 1);
-}
-
-std::string join(const std::vector<std::string> &section,
-                 const std::string &name = "")
-{
-  std::string path;
-  for (const std::string &s : section)
-    path += (path.empty() ? "" : "/") + s;
-  if (!name.empty())
-    path += (path.empty() ? "" : "/") + name;
-  return path;
+  const std::string path = join(section, "/");
+  return path.empty() || name.empty() ? path + name : path + "/" + name;
 }
 
 std::string folder_of(const std::string &file)
 {
   const std::size_t slash = file.rfind('/');
   return slash == std::string::npos ? "" : file.substr(0, slash + 1);
-}
-
-/** A declared entry has a value, a subsection has not. */
-bool is_entry(const ordered_json &node)
-{
-  return node.is_object() && node.contains("value") &&
-         node["value"].is_string();
-}
-
-/** The tree of declared entries; empty subsections are objects, too. */
-ordered_json plain_tree(const ordered_json &tree)
-{
-  ordered_json plain = ordered_json::object();
-  if (!tree.is_object()) // an empty subsection is written as ""
-    return plain;
-  for (const auto &item : tree.items())
-    plain[item.key()] =
-        is_entry(item.value()) ? item.value() : plain_tree(item.value());
-  return plain;
-}
-
-ordered_json declared_tree(const Parameters &prm)
-{
-  std::ostringstream text;
-  const_cast<Parameters &>(prm).handler().print_parameters(
-      text, dealii::ParameterHandler::JSON |
-                dealii::ParameterHandler::KeepDeclarationOrder);
-  return plain_tree(ordered_json::parse(text.str()));
 }
 
 /** Sections in which an entry of this name is declared. */
@@ -91,6 +54,56 @@ void find_entry(const ordered_json &tree, const std::string &name,
 {
   throw InputError(path, (origin.empty() ? "" : origin + ": ") + message);
 }
+
+/** A line without comment, with those that continue it, and the number of its
+    first. */
+struct Line
+{
+  unsigned int number;
+  std::string text;
+};
+
+/** The lines of @p file that say something. */
+std::vector<Line> read_lines(const std::string &file,
+                             const std::string &included_at)
+{
+  std::ifstream stream(file);
+  std::stringstream content(
+      std::string{std::istreambuf_iterator<char>(stream), {}});
+  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
+    fail(included_at, "",
+         "cannot read parameter file \"" + file +
+             "\"; check its name and that it is a readable text file");
+  std::vector<Line> lines;
+  std::string line;
+  for (unsigned int n = 1; std::getline(content, line); ++n)
+  {
+    const unsigned int first = n;
+    std::string text = trim(line.substr(0, line.find('#')));
+    while (!text.empty() && text.back() == '\\')
+    {
+      text.pop_back();
+      if (!std::getline(content, line))
+        break;
+      ++n;
+      text = trim(text + trim(line.substr(0, line.find('#'))));
+    }
+    if (!trim(text).empty())
+      lines.push_back({first, trim(text)});
+  }
+  return lines;
+}
+
+/** Name and value around the first "=" of @p text; the name is empty where
+    there is none. */
+std::pair<std::string, std::string> assignment(const std::string &text)
+{
+  const std::size_t equals = text.find('=');
+  return equals == std::string::npos
+             ? std::pair<std::string, std::string>()
+             : std::make_pair(trim(text.substr(0, equals)),
+                              trim(text.substr(equals + 1)));
+}
 } // namespace
 
 ParameterFile::ParameterFile(const std::string &file,
@@ -101,19 +114,16 @@ ParameterFile::ParameterFile(const std::string &file,
   read(file, "", section, open_files);
   for (const std::string &text : overrides)
   {
-    const std::size_t equals = text.find('=');
-    const std::string path = trim(text.substr(0, equals));
-    if (equals == std::string::npos || path.empty())
+    const auto [path, value] = assignment(text);
+    if (path.empty())
       fail("--set \"" + text + "\"", "",
            "expected \"Section/Name=value\", for example "
            "\"End time=2 us\"");
     Entry entry;
-    std::istringstream parts(path);
-    for (std::string part; std::getline(parts, part, '/');)
-      entry.section.push_back(trim(part));
+    entry.section = split(path, '/');
     entry.name = entry.section.back();
     entry.section.pop_back();
-    entry.value = trim(text.substr(equals + 1));
+    entry.value = value;
     entry.origin = "--set \"" + text + "\"";
     add(entry);
   }
@@ -126,35 +136,14 @@ void ParameterFile::read(const std::string &file,
 {
   if (std::find(open_files.begin(), open_files.end(), file) != open_files.end())
     fail(included_at, "", "file \"" + file + "\" includes itself");
-  std::ifstream stream(file);
-  std::stringstream content(
-      std::string{std::istreambuf_iterator<char>(stream), {}});
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
-    fail(included_at, "",
-         "cannot read parameter file \"" + file +
-             "\"; check its name and that it is a readable text file");
+  const std::vector<Line> lines = read_lines(file, included_at);
   open_files.push_back(file);
-
   const std::size_t depth = section.size();
   std::vector<std::string> opened; // origin of each open subsection
-  std::string line;
-  for (unsigned int n = 1, first_line = 1; std::getline(content, line); ++n)
+  for (const Line &line : lines)
   {
-    first_line = n;
-    std::string text = line.substr(0, line.find('#'));
-    while (!trim(text).empty() && trim(text).back() == '\\')
-    {
-      text = trim(text);
-      text.pop_back();
-      if (!std::getline(content, line))
-        break;
-      ++n;
-      text += trim(line.substr(0, line.find('#')));
-    }
-    text = trim(text);
-    if (text.empty())
-      continue;
-    const std::string origin = file + ":" + std::to_string(first_line);
+    const std::string &text = line.text;
+    const std::string origin = file + ":" + std::to_string(line.number);
     const std::size_t blank = text.find_first_of(" \t");
     const std::string word = text.substr(0, blank);
     const std::string rest =
@@ -163,7 +152,7 @@ void ParameterFile::read(const std::string &file,
     {
       section.push_back(rest);
       opened.push_back(origin);
-      const std::string path = join(section);
+      const std::string path = path_of(section);
       if (std::none_of(sections.begin(), sections.end(),
                        [&](const auto &s) { return s.first == path; }))
         sections.emplace_back(path, origin);
@@ -177,29 +166,37 @@ void ParameterFile::read(const std::string &file,
     }
     else if (word == "set")
     {
-      const std::size_t equals = rest.find('=');
-      const std::string name = trim(rest.substr(0, equals));
-      if (equals == std::string::npos || name.empty())
-        fail(origin, join(section),
+      const auto [name, value] = assignment(rest);
+      if (name.empty())
+        fail(origin, path_of(section),
              "expected \"set Name = value\", found \"" + text + "\"");
-      add({section, name, trim(rest.substr(equals + 1)), origin, file});
+      add({section, name, value, origin, file});
     }
     else if (word == "include" && !rest.empty())
       read(rest[0] == '/' ? rest : folder_of(file) + rest, origin, section,
            open_files);
     else
-      fail(origin, join(section),
+      fail(origin, path_of(section),
            "expected set, subsection, end or include, found \"" + text + "\"");
   }
   if (!opened.empty())
-    fail(opened.back(), join(section),
+    fail(opened.back(), path_of(section),
          "subsection \"" + section.back() + "\" has no \"end\"");
   open_files.pop_back();
 }
 
-void ParameterFile::add(const Entry &entry)
+void ParameterFile::add(const Entry &given)
 {
-  const std::string path = join(entry.section, entry.name);
+  Entry entry = given;
+  entry.name = present_name(given.name);
+  if (entry.name != given.name)
+  {
+    const std::string note = "\"" + given.name + "\" is now called \"" +
+                             entry.name + "\" (" + given.origin + ")";
+    if (renamed.insert(given.name).second)
+      said.push_back(note);
+  }
+  const std::string path = path_of(entry.section, entry.name);
   const auto known = number.find(path);
   if (known == number.end())
   {
@@ -233,7 +230,7 @@ ParameterFile::subsections(const std::string &path) const
     consider(section.first);
   for (const Entry &entry : entries)
     if (!entry.section.empty())
-      consider(join(entry.section));
+      consider(path_of(entry.section));
   return names;
 }
 
@@ -269,7 +266,7 @@ void ParameterFile::parse_into(Parameters &prm) const
   const ordered_json tree = declared_tree(prm);
   for (const Entry &entry : entries)
   {
-    const std::string path = join(entry.section, entry.name);
+    const std::string path = path_of(entry.section, entry.name);
     const ordered_json *node = &tree;
     std::string above;
     for (std::size_t depth = 0; depth <= entry.section.size(); ++depth)
@@ -323,57 +320,5 @@ void ParameterFile::parse_into(Parameters &prm) const
                right);
     }
   }
-}
-
-namespace
-{
-void print_section(const ordered_json &tree, const std::string &path,
-                   std::ostream &out)
-{
-  out << "\n## " << (path.empty() ? "Top level" : path)
-      << "\n\n| entry | default | meaning | allowed |\n|---|---|---|---|\n";
-  const auto cell = [](std::string text)
-  {
-    for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos;
-         i += 2)
-      text.insert(i, "\\");
-    return text;
-  };
-  for (const auto &item : tree.items())
-    if (is_entry(item.value()))
-      out << "| " << item.key() << " | "
-          << cell(item.value().value("default_value", "")) << " | "
-          << cell(item.value().value("documentation", "")) << " | "
-          << cell(item.value().value("pattern_description", "")) << " |\n";
-  for (const auto &item : tree.items())
-    if (!is_entry(item.value()))
-      print_section(item.value(),
-                    path.empty() ? item.key() : path + "/" + item.key(), out);
-}
-} // namespace
-
-void print_manual(const Parameters &prm, std::ostream &out)
-{
-  out << "# Parameters\n";
-  print_section(declared_tree(prm), "", out);
-}
-
-void print_parameters(const Parameters &prm, const std::string &format,
-                      std::ostream &out)
-{
-  using dealii::ParameterHandler;
-  const auto style = format == "prm"    ? ParameterHandler::Text
-                     : format == "json" ? ParameterHandler::JSON
-                     : format == "xml"  ? ParameterHandler::XML
-                                        : ParameterHandler::Description;
-  const_cast<Parameters &>(prm).handler().print_parameters(
-      out, style | ParameterHandler::KeepDeclarationOrder);
-}
-
-void print_expanded(const Parameters &prm, std::ostream &out)
-{
-  const_cast<Parameters &>(prm).handler().print_parameters(
-      out, dealii::ParameterHandler::Text |
-               dealii::ParameterHandler::KeepDeclarationOrder);
 }
 } // namespace sabot

@@ -1,6 +1,8 @@
 // Quantities of scene files: numbers with units, and what an entry accepts.
 #include "sabot/base/quantity.h"
 
+#include "sabot/base/text.h"
+
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -92,14 +94,6 @@ const char *dimension_name(const Dimension dimension)
   return "";
 }
 
-std::string trim(const std::string &text)
-{
-  const std::size_t first = text.find_first_not_of(" \t"),
-                    last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? std::string()
-                                    : text.substr(first, last - first + 1);
-}
-
 /** Number and unit; false when the text is no finite number. */
 bool read_number(const std::string &text, double &number, std::string &unit)
 {
@@ -129,10 +123,7 @@ std::string short_number(const double value)
 
 std::vector<std::string> split_at_commas(const std::string &text)
 {
-  std::vector<std::string> items;
-  std::istringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');)
-    items.push_back(trim(item));
+  std::vector<std::string> items = split(text, ',');
   if (!text.empty() && text.back() == ',')
     items.push_back("");
   return items;

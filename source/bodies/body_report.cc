@@ -1,3 +1,4 @@
+// Output fields and measures that all bodies with material points have.
 #include "sabot/bodies/body_report.h"
 
 #include "sabot/base/exact_sum.h"
@@ -8,16 +9,35 @@
 
 namespace sabot
 {
+namespace
+{
+const DescribeField described[] = {
+    DescribeField({"displacement", "m", 3, "all bodies",
+                   "Current less initial position."}),
+    DescribeField({"velocity", "m/s", 3, "all bodies", "Of the node."}),
+    DescribeField({"stress", "Pa", 6, "cells, particles",
+                   "Cauchy stress, in the current frame; positive in "
+                   "tension."}),
+    DescribeField({"von Mises", "Pa", 1, "cells, particles",
+                   "sqrt(3/2 s:s) of the deviator s of the stress."}),
+    DescribeField({"pressure", "Pa", 1, "cells, particles",
+                   "Minus a third of the trace of the stress; positive in "
+                   "compression."}),
+    DescribeField({"body", "1", 1, "all bodies",
+                   "Number of the body in the list of bodies, from 0."}),
+    DescribeField({"rank", "1", 1, "all bodies", "MPI rank that owns it."})};
+} // namespace
+
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
-                         const std::size_t n, const std::vector<double> &stress,
-                         const std::vector<double> &state,
+                         const std::size_t n, const double *const stress,
+                         const double *const state,
                          const std::vector<StateVariable> &variables)
 {
   const auto stress_at = [&](const std::size_t i, const unsigned int c)
   { return stress[c * n + items[i]]; };
-  add_field(fields, "stress", "Pa", items.size(), 6, stress_at);
-  add_field(fields, "von Mises", "Pa", items.size(), 1,
+  add_field(fields, "stress", items.size(), stress_at);
+  add_field(fields, "von Mises", items.size(),
             [&](const std::size_t i, const unsigned int)
             {
               double s[6];
@@ -26,7 +46,7 @@ void add_material_fields(std::vector<OutputField> &fields,
               return von_mises(s);
             });
   add_field(
-      fields, "pressure", "Pa", items.size(), 1,
+      fields, "pressure", items.size(),
       [&](const std::size_t i, const unsigned int)
       { return -(stress_at(i, 0) + stress_at(i, 1) + stress_at(i, 2)) / 3.; });
   for (const StateVariable &variable : variables)
@@ -34,14 +54,14 @@ void add_material_fields(std::vector<OutputField> &fields,
     {
       const double *const values =
           find_state(variables, state, n, variable.name);
-      add_field(fields, variable.name, variable.unit, items.size(), 1,
+      add_field(fields, variable.name, items.size(),
                 [&](const std::size_t i, const unsigned int)
                 { return values[items[i]]; });
     }
 }
 
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
-                       const std::vector<char> *const left_out)
+BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                           const std::vector<char> *const left_out)
 {
   ExactSum mass, momentum[3], kinetic;
   double top[6];
@@ -65,30 +85,28 @@ Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
   ExactSum::reduce({&mass, &momentum[0], &momentum[1], &momentum[2], &kinetic},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 6, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = {{"mass", "kg", mass.value()}};
-  const char axis[] = {'x', 'y', 'z'};
-  for (int d = 0; d < 3; ++d)
-    measures.push_back(
-        {std::string("velocity ") + axis[d], "m/s",
-         mass.value() > 0. ? momentum[d].value() / mass.value() : 0.});
-  measures.push_back({"kinetic energy", "J", kinetic.value()});
+  BodyMeasures measures;
+  measures.mass = mass.value();
+  measures.kinetic_energy = kinetic.value();
   for (int d = 0; d < 3; ++d)
   {
-    measures.push_back({std::string("minimum ") + axis[d], "m", -top[3 + d]});
-    measures.push_back({std::string("maximum ") + axis[d], "m", top[d]});
+    measures.velocity[d] =
+        mass.value() > 0. ? momentum[d].value() / mass.value() : 0.;
+    measures.low[d] = -top[3 + d];
+    measures.high[d] = top[d];
   }
   return measures;
 }
 
 const double *find_state(const std::vector<StateVariable> &variables,
-                         const std::vector<double> &state, const std::size_t n,
+                         const double *const state, const std::size_t n,
                          const std::string &name)
 {
   std::size_t first = 0;
   for (const StateVariable &variable : variables)
   {
     if (variable.name == name)
-      return state.data() + first * n;
+      return state + first * n;
     first += variable.is_tensor ? n_symmetric : 1;
   }
   return nullptr;

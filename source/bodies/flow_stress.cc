@@ -45,16 +45,18 @@ struct Bracket
 };
 } // namespace
 
-MaterialPoints::MaterialPoints(const Material &material) : material(material)
+FlowStressProbe::FlowStressProbe(const Material &material) : material(material)
 {
   for (const StateVariable &variable : material.state_variables())
     is_tensor.insert(is_tensor.end(), variable.is_tensor ? n_symmetric : 1,
                      variable.is_tensor);
 }
 
-std::vector<double> MaterialPoints::flow_stress() const
+std::vector<double> FlowStressProbe::flow_stress() const
 {
-  std::vector<double> result(pressures.size(), material.initial_yield_stress());
+  constexpr double never = 1e300; // [Pa]
+  std::vector<double> result(pressures.size(),
+                             material.initial_yield_stress().value_or(never));
   for (std::size_t begin = 0; begin < result.size(); begin += max_batch_points)
     flow_stress_of_batch(begin,
                          std::min(max_batch_points, result.size() - begin),
@@ -62,9 +64,9 @@ std::vector<double> MaterialPoints::flow_stress() const
   return result;
 }
 
-void MaterialPoints::flow_stress_of_batch(const std::size_t begin,
-                                          const std::size_t n,
-                                          double *const result) const
+void FlowStressProbe::flow_stress_of_batch(const std::size_t begin,
+                                           const std::size_t n,
+                                           double *const result) const
 {
   const std::size_t n_states = is_tensor.size();
   const double no_strain[max_batch_points] = {};

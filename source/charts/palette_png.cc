@@ -1,3 +1,4 @@
+// PNG files with few colors.
 #include "palette_png.h"
 
 #include <vtkImageData.h>

@@ -1,3 +1,4 @@
+// Reads the fields that a run left.
 #include "run_frames.h"
 
 #include <vtkIdList.h>

@@ -1,3 +1,4 @@
+// Draws a section through the bodies of a run.
 #include "section.h"
 
 #include "palette_png.h"
@@ -30,7 +31,10 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -263,34 +267,85 @@ void add_scale(vtkRenderer *const renderer, const SectionView &view,
   std::snprintf(text, sizeof(text), "%g mm", 1e3 * length);
   add_text(renderer, text, 10., 16., 13, false);
 }
-} // namespace
 
-void draw_section(const nlohmann::json &description)
+/** Where the panels stand. Sizes in pixels. */
+struct Layout
 {
-  SectionRequest request = SectionRequest::parse(description);
-  const SectionView view = make_view(request);
+  std::size_t n_columns = 1, n_rows = 1;
+  double scale = 0.; // [pixels/m]
+  double panel_width, panel_height;
+  double width, height; // of the picture
+
+  double row_height() const { return panel_height + caption_height + gap; }
+  /** Lower left corner of panel @p p, rows from the top. */
+  std::array<double, 2> corner(const std::size_t p) const
+  {
+    const double left = 0.5 * (width - n_columns * (panel_width + gap) + gap);
+    return {{left + (p % n_columns) * (panel_width + gap),
+             bar_height + (n_rows - 1 - p / n_columns) * row_height()}};
+  }
+};
+
+/** As many columns as make the panels largest. */
+Layout make_layout(const SectionView &view)
+{
   const std::size_t n = view.panels.size();
-  // As many columns as make the panels largest.
-  double scale = 0.;
-  std::size_t n_columns = 1;
+  Layout layout;
   for (std::size_t c = 1; c <= n; ++c)
   {
     const std::size_t n_rows = (n + c - 1) / c;
     const double s =
         std::min((widest - gap * (c + 1)) / (c * view.width()),
                  (highest - gap * n_rows) / (n_rows * view.height()));
-    if (s > scale)
+    if (s > layout.scale)
     {
-      scale = s;
-      n_columns = c;
+      layout.scale = s;
+      layout.n_columns = c;
+      layout.n_rows = n_rows;
     }
   }
-  const std::size_t n_rows = (n + n_columns - 1) / n_columns;
-  const double panel_width = std::floor(scale * view.width()),
-               panel_height = std::floor(scale * view.height()),
-               row_height = panel_height + caption_height + gap;
-  const double width = std::max(560., gap + n_columns * (panel_width + gap)),
-               height = title_height + bar_height + n_rows * row_height;
+  layout.panel_width = std::floor(layout.scale * view.width());
+  layout.panel_height = std::floor(layout.scale * view.height());
+  layout.width =
+      std::max(560., gap + layout.n_columns * (layout.panel_width + gap));
+  layout.height =
+      title_height + bar_height + layout.n_rows * layout.row_height();
+  return layout;
+}
+
+void add_color_bar(vtkRenderer *const page, const SectionView &view,
+                   const std::string &field, const double height)
+{
+  vtkNew<vtkScalarBarActor> bar;
+  const Unit unit = unit_of(field);
+  const vtkSmartPointer<vtkLookupTable> colours =
+      make_colours({{view.range[0] / unit.size, view.range[1] / unit.size}});
+  bar->SetLookupTable(colours);
+  bar->SetOrientationToHorizontal();
+  bar->SetTitle("");
+  bar->SetNumberOfLabels(5);
+  bar->SetLabelFormat("%.4g");
+  bar->UnconstrainedFontSizeOn();
+  vtkTextProperty *const label = bar->GetLabelTextProperty();
+  label->SetFontSize(14);
+  label->SetColor(0.1, 0.1, 0.1);
+  label->ShadowOff();
+  label->ItalicOff();
+  label->BoldOff();
+  bar->SetPosition(0.3, 4. / height);
+  bar->SetWidth(0.65);
+  bar->SetHeight((bar_height - 14.) / height);
+  page->AddActor2D(bar);
+  add_text(page, field + unit.text, 12., 24., 15, false);
+}
+} // namespace
+
+void draw_section(const nlohmann::json &description)
+{
+  SectionRequest request = SectionRequest::parse(description);
+  const SectionView view = make_view(request);
+  const Layout layout = make_layout(view);
+  const double width = layout.width, height = layout.height;
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(4);
@@ -301,45 +356,23 @@ void draw_section(const nlohmann::json &description)
   window->AddRenderer(page);
   add_text(page, request.title, 0.5 * width, height - 28., 18, true);
   const Painter painter(view);
-  const double left = 0.5 * (width - n_columns * (panel_width + gap) + gap);
-  for (std::size_t p = 0; p < n; ++p)
+  for (std::size_t p = 0; p < view.panels.size(); ++p)
   {
-    const double x = left + (p % n_columns) * (panel_width + gap),
-                 y = bar_height + (n_rows - 1 - p / n_columns) * row_height;
+    const auto [x, y] = layout.corner(p);
     vtkNew<vtkRenderer> renderer;
-    renderer->SetViewport(x / width, y / height, (x + panel_width) / width,
-                          (y + panel_height) / height);
+    renderer->SetViewport(x / width, y / height,
+                          (x + layout.panel_width) / width,
+                          (y + layout.panel_height) / height);
     renderer->SetBackground(0.965, 0.965, 0.965);
     window->AddRenderer(renderer);
     painter.paint(view.panels[p], renderer);
     char text[80];
     std::snprintf(text, sizeof(text), "t = %.4g ms", 1e3 * view.panels[p].time);
-    add_text(page, text, x + 2., y + panel_height + 5., 15, false);
+    add_text(page, text, x + 2., y + layout.panel_height + 5., 15, false);
     if (p == 0)
-      add_scale(renderer, view, scale);
+      add_scale(renderer, view, layout.scale);
   }
-
-  vtkNew<vtkScalarBarActor> bar;
-  const Unit unit = unit_of(request.field);
-  const vtkSmartPointer<vtkLookupTable> colours =
-      make_colours({{view.range[0] / unit.size, view.range[1] / unit.size}});
-  bar->SetLookupTable(colours);
-  bar->SetOrientationToHorizontal();
-  bar->SetTitle("");
-  bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.4g");
-  bar->UnconstrainedFontSizeOn();
-  bar->GetLabelTextProperty()->SetFontSize(14);
-  bar->GetLabelTextProperty()->SetColor(0.1, 0.1, 0.1);
-  bar->GetLabelTextProperty()->ShadowOff();
-  bar->GetLabelTextProperty()->ItalicOff();
-  bar->GetLabelTextProperty()->BoldOff();
-  bar->SetPosition(0.3, 4. / height);
-  bar->SetWidth(0.65);
-  bar->SetHeight((bar_height - 14.) / height);
-  page->AddActor2D(bar);
-  add_text(page, request.field + unit.text, 12., 24., 15, false);
-
+  add_color_bar(page, view, request.field, height);
   window->Render();
   write_palette_png(window, request.file);
 }

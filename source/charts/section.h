@@ -1,7 +1,7 @@
 #ifndef sabot_charts_section_h
 #define sabot_charts_section_h
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace sabot_charts
 {

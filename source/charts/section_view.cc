@@ -1,3 +1,4 @@
+// Chooses plane, window and range of a section.
 #include "section_view.h"
 
 #include <vtkCellData.h>
@@ -5,6 +6,8 @@
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "run_frames.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <array>
 #include <string>

@@ -1,3 +1,4 @@
+// Draws a chart of points and lines by VTK.
 #include "xy_chart.h"
 
 #include <vtkAxis.h>

@@ -12,7 +12,7 @@ double Contact::patch_radius(const int nodes_of, const int faces_of) const
   // faces that are about as small or smaller would bulge between particles.
   constexpr double normalised_radius = 1.5, fine = 0.75;
   const ContactSurface &nodes = surfaces[nodes_of], &faces = surfaces[faces_of];
-  if (bodies[nodes_of]->item_name() != "particles" ||
+  if (bodies[nodes_of]->particles() == nullptr ||
       nodes.spacing < fine * faces.spacing)
     return 0.;
   return normalised_radius * std::max(nodes.spacing, faces.spacing);

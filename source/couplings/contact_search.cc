@@ -201,9 +201,10 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
     };
     if (pair.loose_nodes_only)
     {
-      for (const std::size_t i : body.debris().nodes)
-        if (nodes.inertia[i] > 0.) // followers stay with their leaders
-          try_node(i, 1.);
+      if (body.particles() != nullptr)
+        for (const std::size_t i : body.particles()->debris().nodes)
+          if (nodes.inertia[i] > 0.) // followers stay with their leaders
+            try_node(i, 1.);
     }
     else
     {

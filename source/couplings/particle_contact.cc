@@ -165,7 +165,7 @@ void ParticleContact::update_halo()
   halo.update();
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
   {
-    const Body &body = halo.body(s);
+    const ParticleView &body = *halo.body(s).particles();
     if (is_on_surface[s])
       surface[s] = body.surface_point(halo.local(s));
     volume[s] = body.volume_point(halo.local(s));

@@ -81,7 +81,7 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
     const std::vector<double> &shares = surfaces[b].node_share;
     std::vector<char> is_loose(others[b].empty() ? 0 : nodes.n_owned, 0);
     if (!others[b].empty())
-      for (const std::size_t i : bodies[b]->debris().nodes)
+      for (const std::size_t i : bodies[b]->particles()->debris().nodes)
         is_loose[i] = 1;
     for (std::size_t i = 0; i < is_loose.size(); ++i)
     {
@@ -94,15 +94,16 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
       particle.key = {std::int32_t(b), 0, nodes.global_id[i]};
       particle.x = x;
       particle.share = shares.empty() ? 1. : shares[i];
-      const SurfacePoint point =
-          is_loose[i] ? SurfacePoint() : bodies[b]->surface_point(i);
+      const SurfacePoint point = is_loose[i]
+                                     ? SurfacePoint()
+                                     : bodies[b]->particles()->surface_point(i);
       particle.is_on_surface = point.spacing > 0.;
       particle.is_open = is_loose[i] || particle.is_on_surface;
       // Tied followers are inside of what they are tied to.
       if (nodes.inertia[i] > 0.)
       {
         particle.reach = std::sqrt(2.) * reach * point.spacing + skin;
-        particle.to_unit = bodies[b]->volume_point(i).to_unit;
+        particle.to_unit = bodies[b]->particles()->volume_point(i).to_unit;
         // It may change its shape somewhat until the next search.
         particle.unit_reach = 1.2 + skin * frobenius(particle.to_unit);
       }

@@ -41,7 +41,7 @@ void SelfContact::initialize()
   skin = 1e300;
   for (const auto &[a, b] : body_pairs)
     for (const int body : {a, b})
-      skin = std::min(skin, 0.4 * bodies[body]->debris().spacing);
+      skin = std::min(skin, 0.4 * bodies[body]->particles()->debris().spacing);
   search();
 }
 
@@ -74,7 +74,7 @@ void SelfContact::search()
   {
     if (!used[b])
       continue;
-    views[b] = bodies[b]->debris();
+    views[b] = bodies[b]->particles()->debris();
     largest_spacing = std::max(largest_spacing, views[b].spacing);
     for (const std::size_t i : views[b].nodes)
       mine.push_back({{std::int32_t(b), 0, bodies[b]->nodes().global_id[i]},
@@ -105,7 +105,7 @@ void SelfContact::search()
           if (b < a && bodies[b.body]->node_owner[b.node] == rank)
             return;
           if (a.body == b.body &&
-              bodies[a.body]->are_bonded(from.local, b.node))
+              bodies[a.body]->particles()->are_bonded(from.local, b.node))
             return;
           const DebrisView &mine_view = views[a.body], &its = views[b.body];
           const double h = std::min(mine_view.spacing, its.spacing);

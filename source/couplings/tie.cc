@@ -192,7 +192,7 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
   const ContactSurface surface = leading.contact_surface();
   const NodalState &nodes = leading.nodes();
   const std::vector<std::array<std::size_t, 8>> behind =
-      leading.cells_behind_faces();
+      leading.faces()->cells_behind_faces();
   std::vector<FaceRecord> my_faces;
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
   {

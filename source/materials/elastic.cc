@@ -1,3 +1,5 @@
+// The elastic law.
+#include "sabot/base/registry.h"
 #include "sabot/materials/laws.h"
 
 #include <algorithm>
@@ -13,9 +15,9 @@ void Elastic::update_deviator(const MaterialBatch &batch, Scratch &) const
 
 namespace
 {
-const RegisterMaterial
+const Registry<Material>::Add
     registered({"Elastic", "hypoelastic, objective rate of the body.", nullptr,
-                [](Parameters &, const std::string &,
+                [](const Parameters &, const std::string &,
                    const ElasticConstants &elastic, const ElasticBase::Eos &eos)
                 { return std::make_unique<Elastic>(elastic, eos); }});
 } // namespace

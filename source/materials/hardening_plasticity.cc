@@ -1,5 +1,5 @@
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+// Radial return for linear and tabulated hardening.
+#include "sabot/base/registry.h"
 #include "sabot/materials/laws.h"
 
 #include <cmath>
@@ -24,9 +24,9 @@ HardeningPlasticity::HardeningPlasticity(const ElasticConstants &elastic,
 std::vector<StateVariable> HardeningPlasticity::law_variables() const
 {
   std::vector<StateVariable> variables = {
-      {"effective plastic strain", "1", 0., false}};
+      {"effective plastic strain", 0., false}};
   if (isotropic_fraction < 1.)
-    variables.push_back({"back stress", "Pa", 0., true});
+    variables.push_back({"back stress", 0., true});
   return variables;
 }
 
@@ -88,7 +88,7 @@ void HardeningPlasticity::update_deviator(const MaterialBatch &b,
 
 namespace
 {
-HardeningParameters parse(Parameters &prm, const std::string &path)
+HardeningParameters parse(const Parameters &prm, const std::string &path)
 {
   HardeningParameters p;
   p.yield_stress = get_quantity(prm, "Yield stress");
@@ -132,7 +132,7 @@ HardeningParameters parse(Parameters &prm, const std::string &path)
   return p;
 }
 
-const RegisterMaterial registered(
+const Registry<Material>::Add registered(
     {"Hardening plasticity",
      "J2 plasticity with linear or tabulated isotropic, kinematic or mixed "
      "hardening.",
@@ -158,13 +158,11 @@ const RegisterMaterial registered(
                          "Yield stresses at these strains, not decreasing; "
                          "constant beyond the last.");
      },
-     [](Parameters &prm, const std::string &path,
+     [](const Parameters &prm, const std::string &path,
         const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
-       prm.enter_subsection("Hardening plasticity");
-       const HardeningParameters p = parse(prm, path + "/Hardening plasticity");
-       prm.leave_subsection();
-       return std::make_unique<HardeningPlasticity>(elastic, p, eos);
+       return std::make_unique<HardeningPlasticity>(elastic, parse(prm, path),
+                                                    eos);
      }});
 } // namespace
 } // namespace sabot

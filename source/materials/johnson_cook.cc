@@ -1,7 +1,8 @@
+// Flow stress and fracture strain after Johnson and Cook.
 #include "sabot/materials/johnson_cook.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+#include "sabot/base/output_fields.h"
+#include "sabot/base/registry.h"
 #include "sabot/kernels/stress_update.h"
 
 namespace sabot
@@ -20,7 +21,7 @@ std::vector<StateVariable> JohnsonCook::law_variables() const
 {
   auto variables = RateDependentPlasticity::law_variables();
   if (flow.p.has_damage)
-    variables.push_back({"damage", "1", 0., false});
+    variables.push_back({"damage", 0., false});
   return variables;
 }
 
@@ -105,7 +106,7 @@ void declare(Parameters &prm)
         "at high triaxiality.");
 }
 
-JohnsonCookParameters parse(Parameters &prm, const std::string &path,
+JohnsonCookParameters parse(const Parameters &prm, const std::string &path,
                             const EquationOfState &eos)
 {
   JohnsonCookParameters p;
@@ -144,18 +145,20 @@ JohnsonCookParameters parse(Parameters &prm, const std::string &path,
   return p;
 }
 
-const RegisterMaterial registered(
+const DescribeField described({"damage", "1", 1,
+                               "cells, particles of Johnson-Cook with damage",
+                               "Johnson and Cook 1985: 1 at fracture."});
+
+const Registry<Material>::Add registered(
     {"Johnson-Cook",
      "strain, strain-rate and thermal softening with adiabatic heating, "
      "optional damage.",
      declare,
-     [](Parameters &prm, const std::string &path,
+     [](const Parameters &prm, const std::string &path,
         const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      {
-       prm.enter_subsection("Johnson-Cook");
-       const JohnsonCookParameters p = parse(prm, path + "/Johnson-Cook", *eos);
-       prm.leave_subsection();
-       return std::make_unique<JohnsonCook>(elastic, p, eos);
+       return std::make_unique<JohnsonCook>(elastic, parse(prm, path, *eos),
+                                            eos);
      }});
 } // namespace
 } // namespace sabot

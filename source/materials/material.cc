@@ -1,7 +1,7 @@
+// The entries of a material: which law, which equation of state, and theirs.
 #include "sabot/materials/material.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+#include "sabot/base/registry.h"
 #include "sabot/materials/elastic_base.h"
 
 #include <cmath>
@@ -10,12 +10,53 @@ namespace sabot
 {
 namespace
 {
-std::string selection()
+using Laws = Registry<Material>;
+using Equations = Registry<EquationOfState>;
+
+/** Declares what the choice @p name brings in a subsection of its own; of a
+    name that is not registered all of them, as the manual does. */
+template <typename Product>
+void declare_subsections(Parameters &prm, const std::string &name)
 {
-  std::string names;
-  for (const MaterialModel &model : material_models())
-    names += (names.empty() ? "" : "|") + model.name;
-  return names;
+  const bool all = Registry<Product>::find(name) == nullptr;
+  for (const auto &entry : Registry<Product>::entries())
+    if (entry.declare && (all || entry.name == name))
+    {
+      prm.enter_subsection(entry.name);
+      entry.declare(prm);
+      prm.leave_subsection();
+    }
+}
+
+/** Makes the choice of the entry @p choice from its subsection. */
+template <typename Product, typename... Arguments>
+auto make_choice(Parameters &prm, const std::string &path,
+                 const std::string &choice, Arguments &...arguments)
+{
+  const auto &entry =
+      Registry<Product>::get(path + "/" + choice, prm.get(choice));
+  if (entry.declare)
+    prm.enter_subsection(entry.name);
+  auto product = entry.make(prm, path + "/" + entry.name, arguments...);
+  if (entry.declare)
+    prm.leave_subsection();
+  return product;
+}
+
+/** InputError where a subsection @p section belongs to a choice that was not
+    made. */
+template <typename Product>
+void check_subsection(const std::string &path, const std::string &section,
+                      const std::string &choice, const std::string &selected)
+{
+  const auto *const owner = Registry<Product>::find(section);
+  if (owner == nullptr || !owner->declare || section == selected)
+    return;
+  throw InputError(path + "/" + section,
+                   "the entries under \"" + section +
+                       "\" would have no effect: " + choice + " is \"" +
+                       selected + "\"; set " + choice + " = " + section +
+                       " or remove them");
 }
 } // namespace
 
@@ -24,28 +65,15 @@ double Material::sound_speed() const
   return std::sqrt((bulk_modulus() + 4. / 3. * shear_modulus()) / density());
 }
 
-void Material::declare_parameters(Parameters &prm,
-                                  const std::string &model_name,
+void Material::declare_parameters(Parameters &prm, const std::string &model,
                                   const std::string &equation_of_state)
 {
-  std::string text = "Constitutive law. ";
-  bool known = false;
-  for (const MaterialModel &model : material_models())
-  {
-    text += model.name + ": " + model.description + " ";
-    known = known || model.name == model_name;
-  }
-  prm.declare_entry("Model", "Elastic", one_of(selection()), text);
+  Laws::declare_choice(prm, "Model", "Elastic", "Constitutive law.");
   prm.declare_entry("Source", "", any_text(), "Where the values come from.");
   ElasticConstants::declare_parameters(prm);
-  EquationOfState::declare_parameters(prm, equation_of_state);
-  for (const MaterialModel &model : material_models())
-    if (model.declare && (!known || model.name == model_name))
-    {
-      prm.enter_subsection(model.name);
-      model.declare(prm);
-      prm.leave_subsection();
-    }
+  Equations::declare_choice(prm, "Equation of state", "Bulk modulus", "");
+  declare_subsections<EquationOfState>(prm, equation_of_state);
+  declare_subsections<Material>(prm, model);
 }
 
 void Material::check_subsections(const std::string &path,
@@ -53,135 +81,23 @@ void Material::check_subsections(const std::string &path,
                                  const std::string &model,
                                  const std::string &equation_of_state)
 {
-  const auto complain = [&](const std::string &entry, const std::string &unread,
-                            const std::string &selected)
-  {
-    throw InputError(path + "/" + unread,
-                     "the entries under \"" + unread +
-                         "\" would have no effect: " + entry + " is \"" +
-                         selected + "\"; set " + entry + " = " + unread +
-                         " or remove them");
-  };
   for (const std::string &section : subsections)
   {
-    for (const MaterialModel &other : material_models())
-      if (other.declare && section == other.name && section != model)
-        complain("Model", section, model);
-    for (const std::string &other : EquationOfState::names())
-      if (section == other && section != equation_of_state)
-        complain("Equation of state", section, equation_of_state);
+    check_subsection<Material>(path, section, "Model", model);
+    check_subsection<EquationOfState>(path, section, "Equation of state",
+                                      equation_of_state);
   }
 }
 
 std::unique_ptr<Material> Material::make(Parameters &prm,
                                          const std::string &path)
 {
-  const std::string name = prm.get("Model");
   const ElasticConstants elastic = ElasticConstants::parse(prm, path);
   std::vector<std::string> warnings;
-  const auto eos = EquationOfState::make(prm, path, elastic, warnings);
-  for (const MaterialModel &model : material_models())
-    if (model.name == name)
-    {
-      auto material = model.make(prm, path, elastic, eos);
-      material->warnings = warnings;
-      return material;
-    }
-  throw InputError(path + "/Model", "no law is called \"" + name + "\"");
-}
-
-std::vector<MaterialModel> &material_models()
-{
-  static std::vector<MaterialModel> models;
-  return models;
-}
-
-RegisterMaterial::RegisterMaterial(const MaterialModel &model)
-{
-  // Kept sorted: the order of linking must not show in the manual.
-  auto &models = material_models();
-  auto position = models.begin();
-  while (position != models.end() && position->name < model.name)
-    ++position;
-  models.insert(position, model);
-}
-
-void ElasticConstants::declare_parameters(Parameters &prm)
-{
-  prm.declare_entry("Density", "0", quantity(Dimension::density, 0., 1e5),
-                    "Density of the stress-free material.");
-  prm.declare_entry("Young's modulus", "0",
-                    quantity(Dimension::pressure, 0., 1e13),
-                    "Modulus in uniaxial stress.");
-  prm.declare_entry("Poisson's ratio", "0.3",
-                    quantity(Dimension::none, -0.99, 0.49999), "Below 0.5.");
-}
-
-ElasticConstants ElasticConstants::parse(const Parameters &prm,
-                                         const std::string &path)
-{
-  ElasticConstants c;
-  c.density = get_quantity(prm, "Density");
-  c.young_modulus = get_quantity(prm, "Young's modulus");
-  c.poisson_ratio = get_quantity(prm, "Poisson's ratio");
-  if (c.density <= 0.)
-    throw InputError(path + "/Density", "must be set to a positive density, "
-                                        "for example 2700 kg/m^3");
-  if (c.young_modulus <= 0.)
-    throw InputError(path + "/Young's modulus",
-                     "must be set to a positive modulus, for example 70 GPa");
-  const double speed =
-      std::sqrt((c.bulk_modulus() + 4. / 3. * c.shear_modulus()) / c.density);
-  if (speed < 100. || speed > 20000.)
-    throw InputError(path + "/Density",
-                     "density " + prm.get("Density") + " and Young's modulus " +
-                         prm.get("Young's modulus") +
-                         " give a sound speed of " + std::to_string(speed) +
-                         " m/s; expected 100 to 20000 m/s: check the units of "
-                         "both (a number alone is in kg/m^3 or Pa)");
-  return c;
-}
-
-ElasticBase::ElasticBase(const ElasticConstants &c, const Eos &eos)
-    : constants(c),
-      eos(eos ? eos : std::make_shared<BulkModulus>(c.bulk_modulus())),
-      G(c.shear_modulus()), n_eos_states(this->eos->state_variables().size())
-{
-}
-
-std::vector<StateVariable> ElasticBase::state_variables() const
-{
-  std::vector<StateVariable> variables = eos->state_variables();
-  for (const StateVariable &variable : law_variables())
-    variables.push_back(variable);
-  return variables;
-}
-
-void ElasticBase::update(const MaterialBatch &batch) const
-{
-  EquationOfState::Start start;
-  eos->begin(batch, start);
-  MaterialBatch law = batch;
-  law.states = batch.states + n_eos_states;
-  Scratch scratch;
-  update_deviator(law, scratch);
-  eos->finish(batch, start, G);
-  after_pressure(law, scratch);
-}
-
-void ElasticBase::trial_deviator(const MaterialBatch &b) const
-{
-  const double two_G = 2. * G;
-  double *const *const s = b.stress;
-  const double *const *const e = b.strain_increment;
-  for (std::size_t k = 0; k < b.n; ++k)
-  {
-    const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.;
-    const double mean = (s[0][k] + s[1][k] + s[2][k]) / 3.;
-    for (int c = 0; c < 3; ++c)
-      s[c][k] += two_G * (e[c][k] - trace) - mean;
-    for (int c = 3; c < 6; ++c)
-      s[c][k] += two_G * e[c][k];
-  }
+  const auto eos = make_choice<EquationOfState>(prm, path, "Equation of state",
+                                                elastic, warnings);
+  auto material = make_choice<Material>(prm, path, "Model", elastic, eos);
+  material->warnings = warnings;
+  return material;
 }
 } // namespace sabot

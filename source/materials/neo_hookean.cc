@@ -1,3 +1,5 @@
+// The neo-Hookean law.
+#include "sabot/base/registry.h"
 #include "sabot/materials/laws.h"
 
 #include <algorithm>
@@ -58,10 +60,10 @@ void NeoHookean::after_pressure(const MaterialBatch &batch,
 
 namespace
 {
-const RegisterMaterial registered(
+const Registry<Material>::Add registered(
     {"Neo-Hookean", "hyperelastic, for finite elastic strain.", nullptr,
-     [](Parameters &, const std::string &, const ElasticConstants &elastic,
-        const ElasticBase::Eos &eos)
+     [](const Parameters &, const std::string &,
+        const ElasticConstants &elastic, const ElasticBase::Eos &eos)
      { return std::make_unique<NeoHookean>(elastic, eos); }});
 } // namespace
 } // namespace sabot

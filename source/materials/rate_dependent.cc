@@ -1,3 +1,4 @@
+// Entries of the laws that heat up.
 #include "sabot/materials/rate_dependent.h"
 
 #include "sabot/base/error.h"

@@ -1,7 +1,7 @@
+// Strength and shear modulus after Steinberg, Cochran and Guinan.
 #include "sabot/materials/steinberg_guinan.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+#include "sabot/base/registry.h"
 
 namespace sabot
 {
@@ -34,11 +34,10 @@ void declare(Parameters &prm)
   ThermalParameters::declare_parameters(prm, "300 K");
 }
 
-std::unique_ptr<Material> make(Parameters &prm, const std::string &path,
+std::unique_ptr<Material> make(const Parameters &prm, const std::string &path,
                                const ElasticConstants &elastic,
                                const ElasticBase::Eos &eos)
 {
-  prm.enter_subsection("Steinberg-Guinan");
   SteinbergGuinanParameters p;
   p.yield_stress = get_quantity(prm, "Initial yield stress");
   p.largest_yield_stress = get_quantity(prm, "Largest yield stress");
@@ -51,21 +50,18 @@ std::unique_ptr<Material> make(Parameters &prm, const std::string &path,
   p.melt_temperature = get_quantity(prm, "Melt temperature");
   p.gruneisen = get_quantity(prm, "Melt Gruneisen coefficient");
   p.melt_correction = get_quantity(prm, "Melt volume correction");
-  const ThermalParameters thermal =
-      ThermalParameters::parse(prm, path + "/Steinberg-Guinan", *eos);
-  prm.leave_subsection();
-  const std::string here = path + "/Steinberg-Guinan/";
+  const ThermalParameters thermal = ThermalParameters::parse(prm, path, *eos);
   if (p.yield_stress <= 0.)
-    throw InputError(here + "Initial yield stress",
+    throw InputError(path + "/Initial yield stress",
                      "must be set to a positive stress, for example 290 MPa");
   if (p.largest_yield_stress < p.yield_stress)
-    throw InputError(here + "Largest yield stress",
+    throw InputError(path + "/Largest yield stress",
                      "must be at least the initial yield stress");
   return std::make_unique<SteinbergGuinan>(elastic, SteinbergGuinanFlow{p},
                                            thermal, eos);
 }
 
-const RegisterMaterial
+const Registry<Material>::Add
     registered({"Steinberg-Guinan",
                 "strength and shear modulus grow with pressure and fall with "
                 "temperature, for rates above 1e5 1/s.",

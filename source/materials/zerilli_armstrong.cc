@@ -1,7 +1,7 @@
+// Flow stress after Zerilli and Armstrong, for both lattices.
 #include "sabot/materials/zerilli_armstrong.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+#include "sabot/base/registry.h"
 
 namespace sabot
 {
@@ -32,13 +32,10 @@ void declare(Parameters &prm)
 }
 
 template <bool bcc>
-std::unique_ptr<Material> make(Parameters &prm, const std::string &path,
+std::unique_ptr<Material> make(const Parameters &prm, const std::string &path,
                                const ElasticConstants &elastic,
                                const ElasticBase::Eos &eos)
 {
-  const std::string name =
-      bcc ? "Zerilli-Armstrong bcc" : "Zerilli-Armstrong fcc";
-  prm.enter_subsection(name);
   ZerilliArmstrongParameters p;
   p.C0 = get_quantity(prm, "C0");
   (bcc ? p.C1 : p.C2) = get_quantity(prm, bcc ? "C1" : "C2");
@@ -50,21 +47,19 @@ std::unique_ptr<Material> make(Parameters &prm, const std::string &path,
     p.n = get_quantity(prm, "Hardening exponent");
   }
   p.melt_temperature = get_quantity(prm, "Melt temperature");
-  const ThermalParameters thermal =
-      ThermalParameters::parse(prm, path + "/" + name, *eos);
-  prm.leave_subsection();
+  const ThermalParameters thermal = ThermalParameters::parse(prm, path, *eos);
   if (p.C0 <= 0.)
-    throw InputError(path + "/" + name + "/C0",
+    throw InputError(path + "/C0",
                      "must be set to a positive stress, for example 65 MPa");
   return std::make_unique<RateDependentPlasticity<ZerilliArmstrongFlow<bcc>>>(
       elastic, ZerilliArmstrongFlow<bcc>{p}, thermal, eos);
 }
 
-const RegisterMaterial
+const Registry<Material>::Add
     registered_fcc({"Zerilli-Armstrong fcc",
                     "dislocation mechanics of face-centred cubic metals.",
                     declare<false>, make<false>});
-const RegisterMaterial
+const Registry<Material>::Add
     registered_bcc({"Zerilli-Armstrong bcc",
                     "dislocation mechanics of body-centred cubic metals.",
                     declare<true>, make<true>});

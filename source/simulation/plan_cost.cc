@@ -1,8 +1,8 @@
 #include "sabot/base/error.h"
-#include "sabot/bodies/spg/spg_body.h"
-#include "sabot/integrator/central_difference.h"
+#include "sabot/integrator/stepper.h"
 #include "sabot/output/checkpoint.h"
 #include "sabot/simulation/plan_output.h"
+#include "sabot/simulation/run.h"
 
 #include <sys/resource.h>
 
@@ -70,22 +70,18 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
   const auto start = Clock::now();
   CostPlan plan;
   Timers timers;
-  CentralDifference integrator(scene.bodies, scene.couplings, timers,
-                               communicator);
+  Stepper stepper(scene.bodies, scene.couplings, step_limits(scene.settings),
+                  timers, communicator);
   scene.distribute();
-  integrator.initialize();
+  stepper.initialize();
   plan.set_up_seconds = since(start);
   for (const auto &body : scene.bodies)
   {
     CostPlan::Item item{body->name, body->item_name(), double(body->n_items()),
                         0.};
-    if (const auto *const spg = dynamic_cast<const SpgBody *>(body.get()))
-    {
-      double bonds = 0.;
-      for (std::size_t i = 0; i < spg->nodes().n_owned; ++i)
-        bonds += spg->bond_list().n_bonds(i);
-      item.neighbours = sum_over_ranks(bonds, communicator) / item.n;
-    }
+    if (const ParticleView *const particles = body->particles())
+      item.neighbours =
+          sum_over_ranks(particles->n_bonds(), communicator) / item.n;
     plan.items.push_back(item);
   }
   const OutputEstimate output(scene, physics, communicator);
@@ -100,28 +96,22 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
   }
 
   constexpr unsigned int least_steps = 6;
-  const double end = scene.settings.end_time * (1. - 1e-12);
   std::vector<double> steps, step_seconds;
   const auto calibration = Clock::now();
   for (bool go_on = true; go_on;)
   {
     const auto step_start = Clock::now();
-    const StepProposal proposal = integrator.propose(false);
+    const StepProposal proposal = stepper.propose(false);
     if (steps.empty())
     {
       plan.first_stable_step = proposal.dt;
       plan.limiter = proposal.limiter;
     }
-    double dt = std::min(scene.settings.step_factor * proposal.dt,
-                         scene.settings.largest_step);
-    if (!steps.empty())
-      dt = std::min(dt, 1.05 * steps.back());
-    dt = std::min(dt, scene.settings.end_time - integrator.time);
-    steps.push_back(dt);
+    steps.push_back(stepper.choose(proposal));
     try
     {
-      integrator.advance(dt);
-      integrator.update_topology(steps.size());
+      stepper.advance(steps.back());
+      stepper.update();
     }
     catch (const PhysicsError &e)
     {
@@ -130,7 +120,7 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
       break;
     }
     step_seconds.push_back(since(step_start));
-    int more = integrator.time < end &&
+    int more = !stepper.is_finished() &&
                (steps.size() < least_steps || since(calibration) < seconds);
     MPI_Bcast(&more, 1, MPI_INT, 0, communicator);
     go_on = more != 0;
@@ -142,11 +132,11 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
   for (std::size_t s = half; s < steps.size(); ++s)
     sum += steps[s];
   plan.mean_step = sum / (steps.size() - half);
-  plan.steps = steps.size() + steps_left(physics.impact, integrator.time,
+  plan.steps = steps.size() + steps_left(physics.impact, stepper.time(),
                                          scene.settings.end_time) /
                                   plan.mean_step;
   plan.steps = std::ceil(plan.steps * (1. - 1e-9));
-  plan.output_bytes = output.bytes(integrator.time);
+  plan.output_bytes = output.bytes(stepper.time());
   plan.seconds = plan.set_up_seconds + plan.steps * plan.seconds_per_step +
                  output_seconds(scene, plan.steps, communicator);
   rusage usage;

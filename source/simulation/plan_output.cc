@@ -93,18 +93,9 @@ std::vector<double> wave_distances(const Scene &scene, const std::size_t body,
                                    MPI_Comm communicator)
 {
   std::vector<Extent> sources;
-  const auto velocity = [](const Body &b)
-  {
-    std::array<double, 3> v{};
-    for (const Measure &m : b.measure())
-      for (int d = 0; d < 3; ++d)
-        if (m.name == std::string("velocity ") + "xyz"[d])
-          v[d] = m.value;
-    return v;
-  };
   std::vector<std::array<double, 3>> velocities;
   for (const auto &b : scene.bodies)
-    velocities.push_back(velocity(*b));
+    velocities.push_back(b->measure().velocity);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (velocities[b] != velocities[body])
       sources.emplace_back(*scene.bodies[b], communicator);
@@ -197,20 +188,22 @@ void append_row(const Scene &scene, History &history)
   for (const auto &coupling : scene.couplings)
     coupling->add_energies(ledger);
   Measures energies;
-  for (int column = 0; column < 14; ++column)
-    energies.push_back(
-        {"part " + std::to_string(column), "J", ledger.kinetic.value()});
+  ledger.for_each(
+      [&](const EnergyTerm &term, const double value) {
+        energies.push_back({term.name, "J", value});
+      });
   history.append("ledger", energies);
   for (const auto &body : scene.bodies)
   {
     // Once for the momentum of a free scene, once for the table.
     if (scene.is_free)
       body->measure();
-    history.append(body->name, body->measure());
+    history.append(body->name, body->measure().columns());
   }
   Measures row;
   for (const QuantityOfInterest &quantity : scene.quantities)
-    row.push_back(scene.bodies[quantity.body]->measure()[0]);
+    row.push_back(
+        {quantity.name, "1", scene.bodies[quantity.body]->measure().mass});
   if (!row.empty())
     history.append("quantities", row);
 }
@@ -258,12 +251,11 @@ OutputEstimate::OutputEstimate(const Scene &scene, const PhysicsPlan &physics,
     const Body &body = *scene.bodies[b];
     bool is_host = false;
     for (const auto &other : scene.bodies)
-      if (other->item_name() == "particles" && body.item_name() == "cells")
+      if (other->particles() != nullptr && body.faces() != nullptr)
         is_host = true;
     double speed = 0.;
-    for (const Measure &m : body.measure())
-      if (m.name.compare(0, 9, "velocity ") == 0)
-        speed += m.value * m.value;
+    for (const double component : body.measure().velocity)
+      speed += component * component;
     // The far field of a zone yields only beside it.
     BodyOutput output;
     output.size = field_size(body.output_mesh(), !(is_host && speed == 0.));
@@ -317,9 +309,9 @@ double OutputEstimate::bytes(const double time) const
   }
   MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, communicator);
   // History: rows of all tables, also those of the regular energy checks.
-  double columns = 12.;
+  double columns = 4. + energy_terms.size(); // time, step, total, residual
   for (const auto &body : scene.bodies)
-    columns += 1. + body->measure().size();
+    columns += 1. + body->measure().columns().size();
   columns += scene.quantities.empty() ? 0. : 1. + scene.quantities.size();
   std::ostringstream parameters;
   print_expanded(scene.prm, parameters);

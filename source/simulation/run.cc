@@ -36,11 +36,21 @@ std::string version()
   return SABOT_VERSION;
 }
 
+StepLimits step_limits(const RunSettings &settings)
+{
+  StepLimits limits;
+  limits.factor = settings.step_factor;
+  limits.largest = settings.largest_step;
+  limits.end_time = settings.end_time;
+  return limits;
+}
+
 Run::Run(Scene &scene, const std::string &folder, const bool quiet,
          MPI_Comm communicator)
     : scene(scene), folder(folder), communicator(communicator),
       log(quiet, communicator),
-      integrator(scene.bodies, scene.couplings, timers, communicator)
+      stepper(scene.bodies, scene.couplings, step_limits(scene.settings),
+              timers, communicator)
 {
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);
@@ -71,8 +81,8 @@ ExitCode Run::execute(const std::string &checkpoint)
     reason = e.what();
     code = ExitCode::physics_failed;
     log.line("");
-    log.line("The run went wrong at time " + format("%.6e", integrator.time) +
-             " s, step " + std::to_string(step) + ": " + reason);
+    log.line("The run went wrong at time " + format("%.6e", stepper.time()) +
+             " s, step " + std::to_string(stepper.steps()) + ": " + reason);
     // For inspection: what follows from it would go wrong again.
     if (checkpoints && !within_step)
       write_checkpoint("failed");
@@ -142,7 +152,7 @@ void Run::start(const std::string &checkpoint)
   {
     const auto timer = timers.scope("set-up");
     scene.distribute();
-    integrator.initialize();
+    stepper.initialize();
   }
   describe_scene();
   next_output.assign(scene.outputs.size(), 0.);
@@ -158,7 +168,7 @@ void Run::start(const std::string &checkpoint)
   }
   if (scene.settings.checkpoint_interval > 0.)
     next_checkpoint =
-        (std::floor(integrator.time / scene.settings.checkpoint_interval *
+        (std::floor(stepper.time() / scene.settings.checkpoint_interval *
                     (1. + 1e-12)) +
          1.) *
         scene.settings.checkpoint_interval;
@@ -171,32 +181,11 @@ void Run::set_initial_values()
   largest_energy = std::abs(balance.total);
   for (const auto &body : scene.bodies)
   {
-    double mass = 0.;
-    std::array<double, 3> velocity{};
-    for (const Measure &m : body->measure())
-    {
-      if (m.name == "mass")
-        mass = m.value;
-      for (int d = 0; d < 3; ++d)
-        if (m.name == std::string("velocity ") + "xyz"[d])
-          velocity[d] = m.value;
-      if (m.name == "kinetic energy")
-        momentum_scale += std::sqrt(2. * m.value * mass);
-    }
+    const BodyMeasures m = body->measure();
+    momentum_scale += std::sqrt(2. * m.kinetic_energy * m.mass);
     for (int d = 0; d < 3; ++d)
-      initial_momentum[d] += mass * velocity[d];
+      initial_momentum[d] += m.mass * m.velocity[d];
   }
-}
-
-double Run::next_step(const StepProposal &proposal) const
-{
-  const double stable = scene.settings.step_factor * proposal.dt;
-  double next = std::min(stable, scene.settings.largest_step);
-  // A step may grow slowly only: contact penalties follow it.
-  if (step > 0)
-    next = std::min(next, 1.05 * dt);
-  const double left = scene.settings.end_time - integrator.time;
-  return left <= next * (1. + 1e-9) ? left : next;
 }
 
 bool Run::record_due() const
@@ -204,45 +193,42 @@ bool Run::record_due() const
   const double slack = 1e-9 * scene.settings.end_time;
   for (std::size_t o = 0; o < scene.outputs.size(); ++o)
     if (scene.outputs[o].type == OutputSettings::Type::history &&
-        integrator.time >= next_output[o] - slack)
+        stepper.time() >= next_output[o] - slack)
       return true;
   return false;
 }
 
 void Run::loop()
 {
-  while (integrator.time < scene.settings.end_time * (1. - 1e-12))
+  while (!stepper.is_finished())
   {
-    const StepProposal proposal = integrator.propose(asked_to_stop != 0);
+    const StepProposal proposal = stepper.propose(asked_to_stop != 0);
     if (proposal.interrupted)
     {
       interrupted = true;
       return;
     }
-    dt = next_step(proposal);
+    const double dt = stepper.choose(proposal);
     limiter = proposal.limiter;
     if (!(dt > 0.))
       throw PhysicsError("no stable step exists any more (limiter: " + limiter +
                          ")");
-    if (proposal.dt < 1e-4 * smallest_step && step > 10)
+    if (proposal.dt < 1e-4 * smallest_step && stepper.steps() > 10)
       throw PhysicsError("the stable step collapsed from " +
                          format("%.3e", smallest_step) + " s to " +
                          format("%.3e", proposal.dt) +
                          " s (limiter: " + limiter + ")");
-    if (dt < scene.settings.end_time - integrator.time)
+    if (dt < scene.settings.end_time - stepper.time())
       smallest_step = std::min(smallest_step, proposal.dt);
     within_step = true;
-    integrator.advance(dt);
-    ++step;
-    integrator.update_topology(step);
+    stepper.advance(dt);
+    stepper.update();
     within_step = false;
-    const bool check =
-        integrator.time >= next_check ||
-        integrator.time >= scene.settings.end_time * (1. - 1e-12);
+    const bool check = stepper.time() >= next_check || stepper.is_finished();
     const bool recorded = check || record_due();
     if (recorded)
     {
-      next_check = integrator.time + scene.settings.end_time / checks_per_run;
+      next_check = stepper.time() + scene.settings.end_time / checks_per_run;
       const auto timer = timers.scope("balance");
       record();
     }
@@ -263,37 +249,22 @@ Run::Balance Run::balance_energy()
     body->add_energies(e);
   for (const auto &coupling : scene.couplings)
     coupling->add_energies(e);
-  ExactSum::reduce({&e.kinetic, &e.internal, &e.stabilization, &e.hourglass,
-                    &e.contact, &e.friction, &e.eroded, &e.external,
-                    &e.plastic_work, &e.failure, &e.tie},
-                   communicator);
-  ExactSum total = e.kinetic;
-  for (const ExactSum *part : {&e.internal, &e.stabilization, &e.hourglass,
-                               &e.contact, &e.friction, &e.eroded, &e.tie})
-    total.add(*part);
-  total.subtract(e.external);
+  e.reduce(communicator);
   Balance balance;
-  balance.total = total.value();
+  balance.total = e.total().value();
   largest_energy = std::max(largest_energy, std::abs(balance.total));
   balance.residual =
-      largest_energy > 0. && step > 0
+      largest_energy > 0. && stepper.steps() > 0
           ? std::abs(balance.total - initial_energy) / largest_energy
           : 0.;
-  ledger = {{"time", "s", integrator.time},
-            {"step size", "s", dt},
-            {"kinetic", "J", e.kinetic.value()},
-            {"internal", "J", e.internal.value()},
-            {"stabilisation", "J", e.stabilization.value()},
-            {"hourglass", "J", e.hourglass.value()},
-            {"contact", "J", e.contact.value()},
-            {"friction", "J", e.friction.value()},
-            {"eroded", "J", e.eroded.value()},
-            {"external", "J", e.external.value()},
-            {"plastic work", "J", e.plastic_work.value()},
-            {"failure", "J", e.failure.value()},
-            {"total", "J", balance.total},
-            {"residual", "1", balance.residual},
-            {"tie", "J", e.tie.value()}};
+  ledger = {{"time", "s", stepper.time()},
+            {"step size", "s", stepper.last_step()}};
+  e.for_each(
+      [&](const EnergyTerm &term, const double value) {
+        ledger.push_back({term.name, "J", value});
+      });
+  ledger.push_back({"total", "J", balance.total});
+  ledger.push_back({"residual", "1", balance.residual});
   return balance;
 }
 
@@ -303,13 +274,10 @@ double Run::momentum_residual() const
       {-initial_momentum[0], -initial_momentum[1], -initial_momentum[2]}};
   for (const auto &body : scene.bodies)
   {
-    const Measures measures = body->measure();
+    const BodyMeasures measures = body->measure();
     for (int d = 0; d < 3; ++d)
-      change[d] += measures[0].value * measures[1 + d].value;
-    for (const Measure &m : measures)
-      for (int d = 0; d < 3; ++d)
-        if (m.name == std::string("eroded momentum ") + "xyz"[d])
-          change[d] += m.value;
+      change[d] +=
+          measures.mass * measures.velocity[d] + measures.eroded_momentum[d];
   }
   return momentum_scale > 0.
              ? std::sqrt(change[0] * change[0] + change[1] * change[1] +
@@ -331,14 +299,14 @@ void Run::record()
   history.append("ledger", ledger);
   for (const auto &body : scene.bodies)
   {
-    Measures row = {{"time", "s", integrator.time}};
-    const Measures measures = body->measure();
+    Measures row = {{"time", "s", stepper.time()}};
+    const Measures measures = body->measure().columns();
     row.insert(row.end(), measures.begin(), measures.end());
     history.append(body->name, row);
   }
   if (!scene.quantities.empty())
   {
-    Measures row = {{"time", "s", integrator.time}};
+    Measures row = {{"time", "s", stepper.time()}};
     const Measures values = quantities();
     row.insert(row.end(), values.begin(), values.end());
     history.append("quantities", row);
@@ -371,29 +339,19 @@ Measures Run::quantities() const
   Measures values;
   for (const QuantityOfInterest &q : scene.quantities)
   {
-    const Measures measures = scene.bodies[q.body]->measure();
-    const auto find = [&](const std::string &name)
-    {
-      for (const Measure &m : measures)
-        if (m.name == name)
-          return m.value;
-      return 0.;
-    };
+    const BodyMeasures measures = scene.bodies[q.body]->measure();
     int axis = 0;
     for (int d = 1; d < 3; ++d)
       if (std::abs(q.direction[d]) > std::abs(q.direction[axis]))
         axis = d;
     const auto extent = [&](const int d)
-    {
-      const std::string letter(1, "xyz"[d]);
-      return find("maximum " + letter) - find("minimum " + letter);
-    };
+    { return measures.high[d] - measures.low[d]; };
     using Type = QuantityOfInterest::Type;
     if (q.type == Type::velocity)
       values.push_back({q.name, "m/s",
-                        q.direction[0] * find("velocity x") +
-                            q.direction[1] * find("velocity y") +
-                            q.direction[2] * find("velocity z")});
+                        q.direction[0] * measures.velocity[0] +
+                            q.direction[1] * measures.velocity[1] +
+                            q.direction[2] * measures.velocity[2]});
     else if (q.type == Type::length)
       values.push_back({q.name, "m", extent(axis)});
     else if (q.type == Type::radius)
@@ -405,9 +363,8 @@ Measures Run::quantities() const
     }
     else
     {
-      const std::string letter(1, "xyz"[axis]);
-      const double tip = q.direction[axis] > 0. ? find("maximum " + letter)
-                                                : -find("minimum " + letter);
+      const double tip =
+          q.direction[axis] > 0. ? measures.high[axis] : -measures.low[axis];
       values.push_back({q.name, "m", tip - q.origin});
     }
   }
@@ -423,7 +380,7 @@ void Run::write_fields()
     fields->write_body(body->name, body->output_mesh(), frame);
     names.push_back(body->name);
   }
-  fields->add_time(integrator.time, frame, names);
+  fields->add_time(stepper.time(), frame, names);
   ++frame;
 }
 
@@ -436,14 +393,14 @@ void Run::write_outputs(const bool all)
     const OutputSettings &output = scene.outputs[o];
     const bool is_vtu = output.type == OutputSettings::Type::vtu;
     const bool new_time = !fields || fields->frames.empty() ||
-                          fields->frames.back().first != integrator.time;
+                          fields->frames.back().first != stepper.time();
     if (is_vtu && fields && new_time &&
-        (all || integrator.time >= next_output[o] - slack))
+        (all || stepper.time() >= next_output[o] - slack))
     {
       write_fields();
       write_history = rank == 0; // kept as far as the fields
     }
-    while (next_output[o] - slack <= integrator.time)
+    while (next_output[o] - slack <= stepper.time())
       next_output[o] += output.interval;
   }
   int bad = 0;
@@ -468,14 +425,14 @@ void Run::write_outputs(const bool all)
 std::string Run::progress_text() const
 {
   const double wall = elapsed_seconds();
-  const double done = integrator.time / scene.settings.end_time;
+  const double done = stepper.time() / scene.settings.end_time;
   const double left = done > 0. ? wall * (1. - done) / done : 0.;
   char text[256];
   std::snprintf(text, sizeof(text),
                 "step %6u  time %.4e s (%3.0f %%)  dt %.3e s (%s)  energy "
                 "residual %.2e  ETA %.0f s",
-                step, integrator.time, 100. * done, dt, limiter.c_str(),
-                last_residual, left);
+                stepper.steps(), stepper.time(), 100. * done,
+                stepper.last_step(), limiter.c_str(), last_residual, left);
   return text;
 }
 } // namespace sabot

@@ -24,9 +24,7 @@ double Run::elapsed_seconds() const
 
 void Run::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("time", integrator.time);
-  visitor.visit_value("step", step);
-  visitor.visit_value("step size", dt);
+  stepper.visit_state(visitor);
   visitor.visit_value("smallest step", smallest_step);
   visit_text(visitor, "limiter", limiter);
   visitor.visit_value("frame", frame);
@@ -116,15 +114,15 @@ void Run::write_checkpoint(const std::string &name)
   header.version = version();
   header.parameters = expanded_parameters;
   header.n_ranks = n_ranks;
-  header.step = step;
-  header.time = integrator.time;
+  header.step = stepper.steps();
+  header.time = stepper.time();
   StateSaver saver;
   visit_all(saver);
   const std::size_t n_bytes = checkpoints->write(header, saver.blocks, name);
   char text[200];
   std::snprintf(text, sizeof(text),
-                "checkpoint at step %u, time %.4e s (%.1f MB)%s", step,
-                integrator.time, 1e-6 * n_bytes,
+                "checkpoint at step %u, time %.4e s (%.1f MB)%s",
+                stepper.steps(), stepper.time(), 1e-6 * n_bytes,
                 name.empty() ? "" : (": " + name + ".h5").c_str());
   log.line(text);
 }
@@ -151,25 +149,26 @@ void Run::restore(const std::string &checkpoint)
   balance_energy();
   largest_energy = largest;
   char text[200];
-  std::snprintf(text, sizeof(text), "resumed at step %u, time %.6e s", step,
-                integrator.time);
+  std::snprintf(text, sizeof(text), "resumed at step %u, time %.6e s",
+                stepper.steps(), stepper.time());
   log.line(text);
 }
 
 bool Run::checkpoint_due()
 {
   const RunSettings &s = scene.settings;
-  bool due = s.checkpoint_steps > 0 && step % s.checkpoint_steps == 0;
+  bool due =
+      s.checkpoint_steps > 0 && stepper.steps() % s.checkpoint_steps == 0;
   if (s.checkpoint_interval > 0. &&
-      integrator.time >= next_checkpoint - 1e-9 * s.end_time)
+      stepper.time() >= next_checkpoint - 1e-9 * s.end_time)
   {
     due = true;
-    while (next_checkpoint - 1e-9 * s.end_time <= integrator.time)
+    while (next_checkpoint - 1e-9 * s.end_time <= stepper.time())
       next_checkpoint += s.checkpoint_interval;
   }
   // Clocks differ between ranks: one decides, not too often.
   constexpr unsigned int steps_between_looks = 16;
-  if (s.checkpoint_wall_time > 0. && step % steps_between_looks == 0)
+  if (s.checkpoint_wall_time > 0. && stepper.steps() % steps_between_looks == 0)
   {
     const double now = std::chrono::duration<double>(
                            std::chrono::steady_clock::now() - start_time)

@@ -66,7 +66,9 @@ ordered_json zone_results(const std::vector<ZoneVerdict> &verdicts)
 void add_fragments(const Body &body, ordered_json &result)
 {
   constexpr std::size_t most = 20;
-  const std::vector<Fragment> fragments = body.fragments();
+  if (body.fragments() == nullptr)
+    return;
+  const std::vector<Fragment> fragments = body.fragments()->connected_pieces();
   if (fragments.empty())
     return;
   result["fragment_count"] = fragments.size();
@@ -141,28 +143,21 @@ ordered_json Run::body_results() const
   {
     ordered_json b;
     b[body->item_name()] = body->n_items();
-    ordered_json velocity = ordered_json::array();
-    bool has_eroded = false;
-    for (const Measure &m : body->measure())
+    const BodyMeasures measures = body->measure();
+    b["mass"] = number(measures.mass);
+    b["velocity"] = ordered_json::array();
+    for (const double component : measures.velocity)
+      b["velocity"].push_back(number(component));
+    for (const Measure &m : measures.columns())
     {
       if (m.name.compare(0, 9, "velocity ") == 0)
-      {
-        velocity.push_back(number(m.value));
-        if (velocity.size() == 3)
-          b["velocity"] = velocity;
         continue;
-      }
       std::string key = m.name;
-      for (char &c : key)
-        if (c == ' ')
-          c = '_';
+      std::replace(key.begin(), key.end(), ' ', '_');
       b[key] = number(m.value);
-      has_eroded = has_eroded || key == "eroded_mass";
     }
-    if (!b.contains("bonds_broken_fraction"))
-      b["bonds_broken_fraction"] = 0.;
-    if (!has_eroded)
-      b["eroded_mass"] = 0.;
+    b["bonds_broken_fraction"] = number(measures.bonds_broken_fraction);
+    b["eroded_mass"] = number(measures.eroded_mass);
     add_fragments(*body, b);
     bodies[body->name] = b;
   }
@@ -203,8 +198,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
   r["status"] = status;
   r["reason"] = reason;
   r["ranks"] = n_ranks;
-  r["steps"] = step;
-  r["time"] = integrator.time;
+  r["steps"] = stepper.steps();
+  r["time"] = stepper.time();
   r["wall_seconds"] = elapsed_seconds();
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
@@ -216,7 +211,7 @@ void Run::write_result(const std::string &status, const std::string &reason)
   r["momentum_residual_max"] =
       scene.is_free ? number(largest_momentum_residual) : ordered_json(nullptr);
   r["stable_step_min"] =
-      step > 0 ? number(smallest_step) : ordered_json(nullptr);
+      stepper.steps() > 0 ? number(smallest_step) : ordered_json(nullptr);
   r["bodies"] = body_results();
   r["quantities"] = ordered_json::object();
   for (const Measure &m : values)
@@ -251,7 +246,7 @@ void Run::write_result(const std::string &status, const std::string &reason)
     }
   }
   const std::vector<ZoneVerdict> zones =
-      judge_zones(scene, timers, step, communicator);
+      judge_zones(scene, timers, stepper.steps(), communicator);
   r["zone"] = zone_results(zones);
   r["knobs"] = knob_results(scene.prm);
 
@@ -274,7 +269,7 @@ void Run::write_result(const std::string &status, const std::string &reason)
   char text[200];
   std::snprintf(text, sizeof(text),
                 "%s: %u steps to %.4e s in %.1f s; energy residual %.2e",
-                status.c_str(), step, integrator.time,
+                status.c_str(), stepper.steps(), stepper.time(),
                 r["wall_seconds"].get<double>(), largest_residual);
   log.line(text);
   for (const ZoneVerdict &zone : zones)

@@ -1,7 +1,5 @@
 #include "sabot/base/error.h"
 #include "sabot/base/parameters.h"
-#include "sabot/bodies/fem/fem_body.h"
-#include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/particle_contact.h"
 #include "sabot/couplings/self_contact.h"
@@ -41,7 +39,7 @@ Bounds bounds_of(const Body &body)
 
 bool has_particles(const Body &body)
 {
-  return body.item_name() == "particles";
+  return body.particles() != nullptr;
 }
 
 /** The entries that contact and self-contact share. */
@@ -141,9 +139,10 @@ void Scene::build_couplings()
     const int leader = body_index(path + "/Leader", prm.get("Leader"));
     if (follower == leader)
       throw InputError(path + "/Leader", "a body cannot be tied to itself");
-    if (dynamic_cast<FemBody *>(bodies[leader].get()) == nullptr)
+    const FaceView *const faces = bodies[leader]->faces();
+    if (faces == nullptr || !faces->deform())
       throw InputError(path + "/Leader", "the leader must be a FEM body");
-    if (dynamic_cast<RigidBody *>(bodies[follower].get()) != nullptr)
+    if (!bodies[follower]->moves_node_by_node())
       throw InputError(path + "/Follower",
                        "a rigid body cannot follow another");
     tied.insert({follower, leader});
@@ -209,7 +208,7 @@ void Scene::build_couplings()
     for (const int a : members)
       if (has_particles(*bodies[a]))
         breaking.push_back(a);
-      else if (dynamic_cast<FemBody *>(bodies[a].get()) != nullptr)
+      else if (bodies[a]->faces()->deform())
         folding.push_back({a, a, false});
       else
         throw InputError(path + "/Bodies", "\"" + bodies[a]->name +

@@ -3,6 +3,7 @@
 #include "sabot/bodies/fem/fem_body.h"
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/bodies/spg/spg_body.h"
+#include "sabot/output/output.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -175,15 +176,6 @@ void declare_coupling(Parameters &prm, const std::string &type)
                       "it was met closer.");
 }
 
-void declare_output(Parameters &prm)
-{
-  prm.declare_entry("Type", "VTU", one_of("VTU|history"),
-                    "VTU: fields of all bodies for ParaView; history: averages "
-                    "and energies in history.h5.");
-  prm.declare_entry("Interval", "5 us", quantity(Dimension::time, 1e-15, 1e3),
-                    "Time between two writes; the end is always written.");
-}
-
 void declare_quantity(Parameters &prm)
 {
   prm.declare_entry(
@@ -277,7 +269,11 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
                                    : read(path + "/Type", "contact"));
        });
   each("Outputs", {"<name>"},
-       [&](const auto &, const auto &) { declare_output(prm); });
+       [&](const std::string &path, const auto &)
+       {
+         Output::declare_parameters(
+             prm, file == nullptr ? "" : read(path + "/Type", "VTU"));
+       });
   each("Quantities", {"<name>"},
        [&](const auto &, const auto &) { declare_quantity(prm); });
 }

@@ -50,15 +50,6 @@ struct Reach
   }
 };
 
-const OutputField *find_field(const std::vector<OutputField> &fields,
-                              const std::string &name)
-{
-  for (const OutputField &field : fields)
-    if (field.name == name)
-      return &field;
-  return nullptr;
-}
-
 /** The box that holds @p reach, kept symmetric where both sides are tied. */
 std::pair<Point, Point> smallest_box(const ZoneBox &zone, const Reach &reach)
 {
@@ -162,47 +153,26 @@ std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
   double n_spg = 0., n_fem = 0.;
   for (const auto &body : scene.bodies)
   {
-    n_spg += body->step_timer_name() == "spg step" ? body->n_items() : 0;
-    n_fem += body->step_timer_name() == "fem step" ? body->n_items() : 0;
+    if (body->particles() != nullptr)
+      n_spg += body->n_items();
+    else if (body->faces() != nullptr && body->faces()->deform())
+      n_fem += body->n_items();
   }
   for (const ZoneBox &zone : find_zones(scene))
   {
     const Body &body = *scene.bodies[zone.zone];
     Reach plastic, bonds;
-    const OutputMesh mesh = body.output_mesh();
-    const OutputField *const eps = find_field(mesh.point_fields,
-                                              "effective plastic strain"),
-                             *const broken = find_field(mesh.point_fields,
-                                                        "failed-bond fraction");
-    const auto reference = [](const Body &of, const std::size_t i)
+    for (const MaterialSite &site : body.material_sites())
     {
-      const Vec X = of.nodes().reference_position[i];
-      return Point{{X[0], X[1], X[2]}};
-    };
-    for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-    {
-      if (eps && eps->values[i] > strained)
-        plastic.add(zone, reference(body, i));
-      if (broken && broken->values[i] > 0.)
-        bonds.add(zone, reference(body, i));
+      if (site.plastic_strain > strained)
+        plastic.add(zone, site.reference_position);
+      if (site.failed_share > 0.)
+        bonds.add(zone, site.reference_position);
     }
     const Body &host = *scene.bodies[zone.host];
-    const OutputMesh cells = host.output_mesh();
-    if (const OutputField *const strain =
-            find_field(cells.cell_fields, "effective plastic strain"))
-      for (std::size_t c = 0; c < strain->values.size(); ++c)
-      {
-        if (!(strain->values[c] > strained))
-          continue;
-        Point centre{{0., 0., 0.}};
-        for (unsigned int a = 0; a < cells.nodes_per_cell; ++a)
-          for (int d = 0; d < 3; ++d)
-            centre[d] +=
-                reference(host,
-                          cells.connectivity[cells.nodes_per_cell * c + a])[d] /
-                cells.nodes_per_cell;
-        plastic.add(zone, centre);
-      }
+    for (const MaterialSite &site : host.material_sites())
+      if (site.plastic_strain > strained)
+        plastic.add(zone, site.reference_position);
     plastic.reduce(communicator);
     bonds.reduce(communicator);
 

@@ -1,7 +1,10 @@
+// What a study concludes from its numbers: order of convergence, Pareto front,
+// prices.
 #include "sabot/study/analysis.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sabot
 {
@@ -38,6 +41,39 @@ Fit fit_for_order(const std::vector<double> &h, const std::vector<double> &f,
     fit.residual += std::pow(f[i] - fit.limit - fit.slope * x[i], 2);
   return fit;
 }
+
+/** The order p of the least residual; nothing where it lies on a bound. */
+std::optional<double> best_order(const std::vector<double> &h,
+                                 const std::vector<double> &f)
+{
+  // The residual has one minimum over p for monotone data; a scan keeps the
+  // search away from others.
+  constexpr double low = 0.3, high = 8.;
+  constexpr int n_scan = 200;
+  const auto residual = [&](const double p)
+  { return fit_for_order(h, f, p).residual; };
+  double best = low;
+  for (int i = 0; i <= n_scan; ++i)
+  {
+    const double p = low + (high - low) * i / n_scan;
+    if (residual(p) < residual(best))
+      best = p;
+  }
+  double a = std::max(low, best - (high - low) / n_scan),
+         b = std::min(high, best + (high - low) / n_scan);
+  for (int i = 0; i < 100; ++i)
+  {
+    const double p = a + 0.382 * (b - a), q = b - 0.382 * (b - a);
+    if (residual(p) < residual(q))
+      b = q;
+    else
+      a = p;
+  }
+  const double p = 0.5 * (a + b);
+  if (p < low + 1e-3 || p > high - 1e-3)
+    return std::nullopt;
+  return p;
+}
 } // namespace
 
 Convergence fit_convergence(const std::vector<double> &h,
@@ -62,30 +98,10 @@ Convergence fit_convergence(const std::vector<double> &h,
     result.method = "all values are equal";
     return result;
   }
-  // The residual has one minimum over p for monotone data; a scan keeps the
-  // search away from others.
-  constexpr double low = 0.3, high = 8.;
-  constexpr int n_scan = 200;
-  double best = low;
-  for (int i = 0; i <= n_scan; ++i)
-  {
-    const double p = low + (high - low) * i / n_scan;
-    if (fit_for_order(h, f, p).residual < fit_for_order(h, f, best).residual)
-      best = p;
-  }
-  double a = std::max(low, best - (high - low) / n_scan),
-         b = std::min(high, best + (high - low) / n_scan);
-  for (int i = 0; i < 100; ++i)
-  {
-    const double p = a + 0.382 * (b - a), q = b - 0.382 * (b - a);
-    (fit_for_order(h, f, p).residual < fit_for_order(h, f, q).residual ? b
-                                                                       : a) =
-        fit_for_order(h, f, p).residual < fit_for_order(h, f, q).residual ? q
-                                                                          : p;
-  }
-  const double p = 0.5 * (a + b);
-  if (p < low + 1e-3 || p > high - 1e-3)
+  const std::optional<double> order = best_order(h, f);
+  if (!order)
     return result;
+  const double p = *order;
   const Fit fit = fit_for_order(h, f, p);
   // Values that go up and down are not a power law, whatever the fit says.
   const double deviation =

@@ -1,8 +1,13 @@
+// Charts of points and lines as SVG, and as JSON for the program that draws
+// PNG.
 #include "sabot/study/chart.h"
+
+#include "sabot/base/text.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <sstream>
 
@@ -20,10 +25,7 @@ constexpr double width = 640., height = 380., left = 80., right = 20.,
 
 std::string short_number(const double value)
 {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.4g",
-                std::abs(value) < 1e-300 ? 0. : value);
-  return text;
+  return formatted("%.4g", std::abs(value) < 1e-300 ? 0. : value);
 }
 
 struct Axis

@@ -1,8 +1,12 @@
+// Asks sabot-charts for pictures of charts and sections.
 #include "sabot/study/pictures.h"
 
 #include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/study/process_pool.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -38,14 +42,13 @@ std::string title_of(const std::string &folder)
   return file && result.is_object() ? result.value("title", "") : "";
 }
 
+/** What the program that draws has said, on one line. */
 std::string all_lines(const std::string &file)
 {
-  std::ifstream stream(file);
   std::string text;
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty())
-      text += (text.empty() ? "" : "; ") +
-              (line.compare(0, 7, "error: ") == 0 ? line.substr(7) : line);
+  for (const std::string &line : lines_of(file))
+    text += (text.empty() ? "" : "; ") +
+            (line.compare(0, 7, "error: ") == 0 ? line.substr(7) : line);
   return text;
 }
 } // namespace

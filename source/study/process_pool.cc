@@ -1,3 +1,4 @@
+// Runs programs, several at a time.
 #include "sabot/study/process_pool.h"
 
 #include "sabot/base/error.h"

@@ -1,10 +1,11 @@
+// The report of a study: one HTML page with everything in it.
 #include "sabot/base/hash.h"
+#include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/study/results.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -30,9 +31,7 @@ std::string number(const double value, const char *const pattern = "%.5g")
 {
   if (!std::isfinite(value))
     return "–";
-  char text[60];
-  std::snprintf(text, sizeof(text), pattern, value);
-  return text;
+  return formatted(pattern, value);
 }
 
 std::string cell(const std::string &text, const bool is_text = false)

@@ -1,3 +1,4 @@
+// Reads what the runs of a study left, and draws its conclusions.
 #include "sabot/study/results.h"
 
 #include "sabot/base/error.h"
@@ -107,85 +108,95 @@ StudyResults::StudyResults(const StudyFile &study,
                            std::vector<StudyOutcome> outcomes_)
     : study(study), outcomes(std::move(outcomes_))
 {
-  const auto usable = [&](const std::size_t run, const std::size_t q)
-  {
-    return outcomes[run].is_complete() &&
-           std::isfinite(outcomes[run].quantities[q]);
-  };
   for (std::size_t p = 0; p < study.parameters.size(); ++p)
-  {
-    if (study.parameters[p].role != StudyParameter::Role::spacing)
-      continue;
-    for (std::size_t q = 0; q < study.quantities.size(); ++q)
-    {
-      std::map<std::vector<std::size_t>, ConvergenceSeries> series;
-      for (std::size_t run = 0; run < study.runs.size(); ++run)
-      {
-        if (!usable(run, q))
-          continue;
-        std::vector<std::size_t> rest = study.runs[run].choice;
-        rest[p] = 0;
-        ConvergenceSeries &s = series[rest];
-        s.parameter = p;
-        s.quantity = q;
-        s.others = study.label(study.runs[run], p);
-        s.spacing.push_back(
-            study.parameters[p].values[study.runs[run].choice[p]].number);
-        s.value.push_back(outcomes[run].quantities[q]);
-      }
-      for (auto &[rest, s] : series)
-        if (s.spacing.size() >= 2)
-        {
-          s.fit = fit_convergence(s.spacing, s.value);
-          convergence.push_back(s);
-        }
-    }
-  }
+    if (study.parameters[p].role == StudyParameter::Role::spacing)
+      for (std::size_t q = 0; q < study.quantities.size(); ++q)
+        find_convergence(p, q);
   for (std::size_t q = 0; q < study.quantities.size(); ++q)
   {
-    ErrorReference reference;
-    if (std::isfinite(study.quantities[q].measured))
-      reference = {study.quantities[q].measured,
-                   "measured" +
-                       (study.quantities[q].source.empty()
-                            ? std::string()
-                            : " (" + study.quantities[q].source + ")")};
-    else
-    {
-      for (const ConvergenceSeries &s : convergence)
-        if (s.quantity == q && s.others.empty() && s.fit.has_order)
-          reference = {s.fit.limit, "extrapolated to spacing 0"};
-      std::size_t dearest = 0;
-      bool found = false;
-      for (std::size_t run = 0; run < outcomes.size(); ++run)
-        if (usable(run, q) && (!found || outcomes[run].cpu_seconds >
-                                             outcomes[dearest].cpu_seconds))
-        {
-          dearest = run;
-          found = true;
-        }
-      if (reference.origin.empty() && found)
-        reference = {outcomes[dearest].quantities[q],
-                     "the dearest run (" + label(dearest) + ")"};
-    }
-    references.push_back(reference);
-
-    std::vector<PricedRun> priced;
-    std::vector<double> cost, errors;
-    for (std::size_t run = 0; run < outcomes.size(); ++run)
-    {
-      const bool good = usable(run, q);
-      priced.push_back({study.runs[run].choice, outcomes[run].cpu_seconds,
-                        good ? outcomes[run].quantities[q] : nothing});
-      cost.push_back(outcomes[run].cpu_seconds);
-      errors.push_back(good ? error(run, q) : nothing);
-    }
-    std::vector<std::size_t> n_values;
-    for (const StudyParameter &parameter : study.parameters)
-      n_values.push_back(parameter.values.size());
-    prices.push_back(price_list(priced, n_values));
-    fronts.push_back(pareto_front(cost, errors));
+    references.push_back(find_reference(q));
+    find_prices(q);
   }
+}
+
+bool StudyResults::is_usable(const std::size_t run, const std::size_t q) const
+{
+  return outcomes[run].is_complete() &&
+         std::isfinite(outcomes[run].quantities[q]);
+}
+
+void StudyResults::find_convergence(const std::size_t p, const std::size_t q)
+{
+  // One series for each choice of the other parameters.
+  std::map<std::vector<std::size_t>, ConvergenceSeries> series;
+  for (std::size_t run = 0; run < study.runs.size(); ++run)
+  {
+    if (!is_usable(run, q))
+      continue;
+    std::vector<std::size_t> rest = study.runs[run].choice;
+    rest[p] = 0;
+    ConvergenceSeries &s = series[rest];
+    s.parameter = p;
+    s.quantity = q;
+    s.others = study.label(study.runs[run], p);
+    s.spacing.push_back(
+        study.parameters[p].values[study.runs[run].choice[p]].number);
+    s.value.push_back(outcomes[run].quantities[q]);
+  }
+  for (auto &[rest, s] : series)
+    if (s.spacing.size() >= 2)
+    {
+      s.fit = fit_convergence(s.spacing, s.value);
+      convergence.push_back(s);
+    }
+}
+
+ErrorReference StudyResults::find_reference(const std::size_t q) const
+{
+  const StudyQuantity &quantity = study.quantities[q];
+  if (std::isfinite(quantity.measured))
+    return {quantity.measured,
+            "measured" + (quantity.source.empty()
+                              ? std::string()
+                              : " (" + quantity.source + ")")};
+  ErrorReference reference;
+  for (const ConvergenceSeries &s : convergence)
+    if (s.quantity == q && s.others.empty() && s.fit.has_order)
+      reference = {s.fit.limit, "extrapolated to spacing 0"};
+  if (!reference.origin.empty())
+    return reference;
+  std::size_t dearest = 0;
+  bool found = false;
+  for (std::size_t run = 0; run < outcomes.size(); ++run)
+    if (is_usable(run, q) &&
+        (!found || outcomes[run].cpu_seconds > outcomes[dearest].cpu_seconds))
+    {
+      dearest = run;
+      found = true;
+    }
+  if (found)
+    reference = {outcomes[dearest].quantities[q],
+                 "the dearest run (" + label(dearest) + ")"};
+  return reference;
+}
+
+void StudyResults::find_prices(const std::size_t q)
+{
+  std::vector<PricedRun> priced;
+  std::vector<double> cost, errors;
+  for (std::size_t run = 0; run < outcomes.size(); ++run)
+  {
+    const bool good = is_usable(run, q);
+    priced.push_back({study.runs[run].choice, outcomes[run].cpu_seconds,
+                      good ? outcomes[run].quantities[q] : nothing});
+    cost.push_back(outcomes[run].cpu_seconds);
+    errors.push_back(good ? error(run, q) : nothing);
+  }
+  std::vector<std::size_t> n_values;
+  for (const StudyParameter &parameter : study.parameters)
+    n_values.push_back(parameter.values.size());
+  prices.push_back(price_list(priced, n_values));
+  fronts.push_back(pareto_front(cost, errors));
 }
 
 double StudyResults::error(const std::size_t run,

@@ -1,11 +1,15 @@
+// Runs what a study lacks, then writes tables, charts and the report.
 #include "sabot/study/study.h"
 
 #include "sabot/base/hash.h"
+#include "sabot/base/text.h"
 #include "sabot/output/checkpoint.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/study/pictures.h"
 #include "sabot/study/process_pool.h"
 #include "sabot/study/results.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -21,12 +25,8 @@ namespace fs = std::filesystem;
 
 std::string last_line(const std::string &file)
 {
-  std::ifstream stream(file);
-  std::string last;
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty())
-      last = line;
-  return last;
+  const std::vector<std::string> lines = lines_of(file);
+  return lines.empty() ? "" : lines.back();
 }
 
 std::string run_folder(const StudyArguments &arguments, const StudyRun &run)
@@ -87,18 +87,24 @@ std::string build_of(const std::string &folder)
   return build;
 }
 
-/** Run what is missing. @return whether nothing stopped it. */
-bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
+/** What is to be started, and what is kept from before. */
+struct Plan
 {
   std::vector<Command> commands;
-  std::vector<const StudyRun *> started;
+  std::vector<const StudyRun *> started; // per command
+  std::size_t n_different = 0;           // two choices may give one scene
+  std::size_t n_kept = 0, n_of_other_builds = 0;
+};
+
+Plan plan_runs(const StudyArguments &arguments, const StudyFile &study)
+{
+  Plan plan;
   std::set<std::string> seen;
   const std::string build = build_of_program();
-  std::size_t n_kept = 0, n_of_other_builds = 0;
   for (const StudyRun &run : study.runs)
   {
     if (!seen.insert(run.key).second)
-      continue; // two choices give the same scene
+      continue;
     const std::string folder = run_folder(arguments, run);
     const std::string status = read_outcome(folder, study.quantities).status;
     const std::string built = build_of(folder);
@@ -106,41 +112,51 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
     if ((status == "completed" || (status == "failed" && !arguments.retry)) &&
         !(is_of_other_build && arguments.renew))
     {
-      ++n_kept;
-      n_of_other_builds += is_of_other_build;
+      ++plan.n_kept;
+      plan.n_of_other_builds += is_of_other_build;
       continue;
     }
     make_folder(folder);
     write_text(folder + "/build.txt", build + "\n");
     const bool resume = status != "failed" && !is_of_other_build &&
                         !CheckpointFolder::list(folder + "/checkpoint").empty();
-    commands.push_back(command_for(study, run, folder, resume));
-    started.push_back(&run);
+    plan.commands.push_back(command_for(study, run, folder, resume));
+    plan.started.push_back(&run);
   }
+  plan.n_different = seen.size();
+  return plan;
+}
+
+/** Run what is missing. @return whether nothing stopped it. */
+bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
+{
+  const Plan plan = plan_runs(arguments, study);
   const unsigned int n_processes =
       arguments.n_processes > 0 ? arguments.n_processes : study.n_processes;
   if (!arguments.quiet)
-    std::cout << seen.size() << " runs, " << n_kept << " of them kept from "
-              << "before, " << n_processes << " at a time" << std::endl;
-  if (n_of_other_builds > 0)
-    std::cerr << "warning: " << n_of_other_builds
+    std::cout << plan.n_different << " runs, " << plan.n_kept
+              << " of them kept from before, " << n_processes << " at a time"
+              << std::endl;
+  if (plan.n_of_other_builds > 0)
+    std::cerr << "warning: " << plan.n_of_other_builds
               << " of the kept runs were made by another build of the program; "
                  "--renew runs them again"
               << std::endl;
   std::size_t n_ended = 0;
   const auto report = [&](const Ended &ended)
   {
-    const StudyRun &run = *started[ended.command];
+    const StudyRun &run = *plan.started[ended.command];
     if (arguments.quiet)
       return;
-    std::cout << "[" << ++n_ended << "/" << commands.size() << "] " << run.key;
+    std::cout << "[" << ++n_ended << "/" << plan.commands.size() << "] "
+              << run.key;
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
       std::cout << (p == 0 ? ": " : ", ") << study.parameters[p].name << " "
                 << study.parameters[p].values[run.choice[p]].label;
     if (ended.code != 0)
     {
       // What a quiet run says stands in its result.
-      const std::string said = last_line(commands[ended.command].log);
+      const std::string said = last_line(plan.commands[ended.command].log);
       std::cout << ": exit code " << ended.code << ": "
                 << (said.empty() ? read_outcome(run_folder(arguments, run),
                                                 study.quantities)
@@ -149,7 +165,7 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
     }
     std::cout << std::endl;
   };
-  return run_processes(commands, n_processes, report);
+  return run_processes(plan.commands, n_processes, report);
 }
 
 /** Charts, and sections through those runs that have fields and no picture of

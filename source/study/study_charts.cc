@@ -1,3 +1,4 @@
+// Which charts a study is worth.
 #include "sabot/study/results.h"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
+// Reads a study file: parameters, quantities, and the runs they make.
 #include "sabot/study/study_file.h"
 
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 
@@ -14,24 +16,6 @@ namespace sabot
 {
 namespace
 {
-
-std::string trim(const std::string &text)
-{
-  const std::size_t first = text.find_first_not_of(" \t"),
-                    last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-/** Parts between separators, trimmed; an empty text has none. */
-std::vector<std::string> split(const std::string &text, const char separator)
-{
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);)
-    parts.push_back(trim(part));
-  return parts;
-}
-
 /** SI value of the first quantity in a label, NaN when there is none. */
 double number_of(const std::string &label)
 {
@@ -101,6 +85,50 @@ StudyParameter read_parameter(const Parameters &prm, const std::string &name,
                                                "lengths or another role");
   return parameter;
 }
+
+void declare_parameter(Parameters &prm)
+{
+  prm.declare_entry("Entries", "", any_text(),
+                    "Paths of the scene's entries that take the values, "
+                    "separated by semicolons; \"Scene\" stands for the "
+                    "scene's file.");
+  prm.declare_entry("Values", "", any_text(),
+                    "Values, separated by semicolons, the base first; a "
+                    "vertical bar separates those of several entries.");
+  prm.declare_entry("Labels", "", any_text(),
+                    "Names of the values in tables and charts, separated by "
+                    "semicolons; none: the values themselves.");
+  prm.declare_entry("Role", "knob", one_of("knob|spacing|physics"),
+                    "knob: trades speed for accuracy; spacing: sizes over "
+                    "which convergence is judged; physics: changes the "
+                    "problem.");
+}
+
+void declare_quantity(Parameters &prm)
+{
+  prm.declare_entry("Measured value", "nan", any_text(),
+                    "Of the experiment, with unit; nan: none.");
+  prm.declare_entry("Source", "", any_text(),
+                    "Where the measured value comes from.");
+  prm.declare_entry("Over", "", any_text(),
+                    "Another quantity of the scene: the histories are also "
+                    "drawn over it, as velocity over depth.");
+}
+
+/** InputError for @p entry where the scene has no quantity @p name. */
+void check_quantity(const std::string &entry, const std::string &scene,
+                    const std::vector<std::string> &known,
+                    const std::string &name)
+{
+  if (name.empty() ||
+      std::find(known.begin(), known.end(), name) != known.end())
+    return;
+  throw InputError(entry,
+                   "scene \"" + scene + "\" has no quantity \"" + name + "\"" +
+                       (known.empty() ? std::string()
+                                      : "; did you mean \"" +
+                                            nearest_name(name, known) + "\"?"));
+}
 } // namespace
 
 void StudyFile::declare(Parameters &prm,
@@ -130,41 +158,21 @@ void StudyFile::declare(Parameters &prm,
   prm.declare_entry("Picture times", "", any_text(),
                     "Times of the sections, separated by commas; none: the end "
                     "of the run.");
-  prm.enter_subsection("Parameters");
-  for (const std::string &name : parameter_names)
+  const auto each = [&](const char *const section,
+                        const std::vector<std::string> &names,
+                        void (*const declare_entries)(Parameters &))
   {
-    prm.enter_subsection(name);
-    prm.declare_entry("Entries", "", any_text(),
-                      "Paths of the scene's entries that take the values, "
-                      "separated by semicolons; \"Scene\" stands for the "
-                      "scene's file.");
-    prm.declare_entry("Values", "", any_text(),
-                      "Values, separated by semicolons, the base first; a "
-                      "vertical bar separates those of several entries.");
-    prm.declare_entry("Labels", "", any_text(),
-                      "Names of the values in tables and charts, separated by "
-                      "semicolons; none: the values themselves.");
-    prm.declare_entry("Role", "knob", one_of("knob|spacing|physics"),
-                      "knob: trades speed for accuracy; spacing: sizes over "
-                      "which convergence is judged; physics: changes the "
-                      "problem.");
+    prm.enter_subsection(section);
+    for (const std::string &name : names)
+    {
+      prm.enter_subsection(name);
+      declare_entries(prm);
+      prm.leave_subsection();
+    }
     prm.leave_subsection();
-  }
-  prm.leave_subsection();
-  prm.enter_subsection("Quantities");
-  for (const std::string &name : quantity_names)
-  {
-    prm.enter_subsection(name);
-    prm.declare_entry("Measured value", "nan", any_text(),
-                      "Of the experiment, with unit; nan: none.");
-    prm.declare_entry("Source", "", any_text(),
-                      "Where the measured value comes from.");
-    prm.declare_entry("Over", "", any_text(),
-                      "Another quantity of the scene: the histories are also "
-                      "drawn over it, as velocity over depth.");
-    prm.leave_subsection();
-  }
-  prm.leave_subsection();
+  };
+  each("Parameters", parameter_names, declare_parameter);
+  each("Quantities", quantity_names, declare_quantity);
 }
 
 StudyFile::StudyFile(const std::string &file_name,
@@ -274,50 +282,42 @@ void StudyFile::list_runs()
       }
   }
   for (const std::vector<std::size_t> &choice : choices)
-  {
-    StudyRun run;
-    run.choice = choice;
-    run.scene = scene;
-    run.overrides = fixed;
-    for (std::size_t p = 0; p < parameters.size(); ++p)
-      for (std::size_t e = 0; e < parameters[p].entries.size(); ++e)
-      {
-        const std::string &entry = parameters[p].entries[e],
-                          &text = parameters[p].values[choice[p]].text[e];
-        if (entry == "Scene")
-          run.scene = text;
-        else
-          run.overrides.push_back(entry + "=" + text);
-      }
-    // The expanded parameters, as the run itself will write them.
-    const ParameterFile scene_file(run.scene, run.overrides);
-    Parameters prm;
-    Scene::declare(prm, &scene_file);
-    scene_file.parse_into(prm);
-    std::ostringstream text;
-    text << version() << "\n";
-    print_expanded(prm, text);
-    run.key = sha256(text.str()).substr(0, 16);
-    const std::vector<std::string> known =
-        split_names(prm.get("List of quantities"));
-    const auto check_known =
-        [&](const std::string &entry, const std::string &name)
+    runs.push_back(make_run(choice));
+}
+
+StudyRun StudyFile::make_run(const std::vector<std::size_t> &choice) const
+{
+  StudyRun run;
+  run.choice = choice;
+  run.scene = scene;
+  run.overrides = fixed;
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    for (std::size_t e = 0; e < parameters[p].entries.size(); ++e)
     {
-      if (!name.empty() &&
-          std::find(known.begin(), known.end(), name) == known.end())
-        throw InputError(
-            entry, "scene \"" + run.scene + "\" has no quantity \"" + name +
-                       "\"" +
-                       (known.empty() ? std::string()
-                                      : "; did you mean \"" +
-                                            nearest_name(name, known) + "\"?"));
-    };
-    for (const StudyQuantity &quantity : quantities)
-    {
-      check_known("Quantities/" + quantity.name, quantity.name);
-      check_known("Quantities/" + quantity.name + "/Over", quantity.over);
+      const std::string &entry = parameters[p].entries[e],
+                        &text = parameters[p].values[choice[p]].text[e];
+      if (entry == "Scene")
+        run.scene = text;
+      else
+        run.overrides.push_back(entry + "=" + text);
     }
-    runs.push_back(run);
+  // The expanded parameters, as the run itself will write them.
+  const ParameterFile scene_file(run.scene, run.overrides);
+  Parameters prm;
+  Scene::declare(prm, &scene_file);
+  scene_file.parse_into(prm);
+  std::ostringstream text;
+  text << version() << "\n";
+  print_expanded(prm, text);
+  run.key = sha256(text.str()).substr(0, 16);
+  const std::vector<std::string> known =
+      split_names(prm.get("List of quantities"));
+  for (const StudyQuantity &quantity : quantities)
+  {
+    const std::string path = "Quantities/" + quantity.name;
+    check_quantity(path, run.scene, known, quantity.name);
+    check_quantity(path + "/Over", run.scene, known, quantity.over);
   }
+  return run;
 }
 } // namespace sabot

@@ -1,3 +1,4 @@
+// Numbers of a study as CSV and HDF5.
 #include "sabot/output/file_tools.h"
 #include "sabot/study/results.h"
 

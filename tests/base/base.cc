@@ -1,7 +1,10 @@
+// Tools that all folders stand on: sums, quantities, names, files, text.
+#include "sabot/base/entry_aliases.h"
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
 
 #include <gtest/gtest.h>
 
@@ -66,11 +69,22 @@ TEST(Quantity, units_dimensions_and_ranges)
   EXPECT_FALSE(three.match("1 mm, 2 mm, "));
 
   Parameters prm;
-  prm.declare_entry("Stress", "324 MPa", quantity(Dimension::pressure));
+  prm.declare_entry("Stress", "324 MPa", quantity(Dimension::pressure), "");
   prm.declare_entry("Size", "1 mm, 2 cm",
-                    quantities(Dimension::length, 2, 2, 0., 1.));
+                    quantities(Dimension::length, 2, 2, 0., 1.), "");
   EXPECT_DOUBLE_EQ(get_quantity(prm, "Stress"), 324e6);
   EXPECT_DOUBLE_EQ(get_quantities(prm, "Size")[1], 0.02);
+}
+
+TEST(Text, is_trimmed_split_and_joined)
+{
+  EXPECT_EQ(trim(" \t a b\r\n"), "a b");
+  EXPECT_EQ(trim(" \n"), "");
+  EXPECT_EQ(split("a; ;b ;", ';'), (std::vector<std::string>{"a", "", "b"}));
+  EXPECT_TRUE(split("", ';').empty());
+  EXPECT_EQ(join({"a", "b", "c"}, "/"), "a/b/c");
+  EXPECT_EQ(formatted("%.3g mm", 2. / 3.), "0.667 mm");
+  EXPECT_TRUE(lines_of("/no/such/file").empty());
 }
 
 TEST(NearestName, finds_the_likely_one)
@@ -86,11 +100,11 @@ protected:
   {
     char name[] = "/tmp/sabot-test-XXXXXX";
     folder = mkdtemp(name);
-    prm.declare_entry("Title", "", any_text());
+    prm.declare_entry("Title", "", any_text(), "");
     prm.enter_subsection("Bodies");
     prm.enter_subsection("plate");
-    prm.declare_entry("Cell size", "1 mm", quantity(Dimension::length));
-    prm.declare_entry("Kind", "FEM", one_of("FEM|SPG"));
+    prm.declare_entry("Cell size", "1 mm", quantity(Dimension::length), "");
+    prm.declare_entry("Kind", "FEM", one_of("FEM|SPG"), "");
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -151,6 +165,26 @@ TEST_F(Files, a_misspelt_entry_gets_file_line_and_a_suggestion)
   EXPECT_CONTAINS(message("subsection Bodys\nset Title = 1\nend"),
                   "did you mean \"Bodies\"?");
   EXPECT_CONTAINS(message("set Cell size = 1 mm"), "belongs to Bodies/plate");
+}
+
+TEST_F(Files, old_names_are_accepted_and_said_once)
+{
+  const auto &[old_name, name] = entry_aliases().front();
+  prm.declare_entry(name, "0", any_text(), "");
+  const ParameterFile parsed(
+      write("scene.prm", "set " + old_name + " = 1 # old\n"),
+      {old_name + "=2"});
+  EXPECT_EQ(parsed.value(name, ""), "2");
+  EXPECT_TRUE(parsed.is_set(name));
+  EXPECT_EQ(parsed.origin(name), "--set \"" + old_name + "=2\"");
+  parsed.parse_into(prm);
+  EXPECT_EQ(prm.get(name), "2");
+  ASSERT_EQ(parsed.notes().size(), 1u);
+  EXPECT_CONTAINS(parsed.notes()[0], "is now called \"" + name + "\"");
+  EXPECT_CONTAINS(parsed.notes()[0], "scene.prm:1");
+  // Both names are one entry.
+  EXPECT_CONTAINS(message("set " + old_name + " = 1\nset " + name + " = 2\n"),
+                  "already set at");
 }
 
 TEST_F(Files, a_wrong_value_is_told_with_what_would_be_right)

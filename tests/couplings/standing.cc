@@ -35,7 +35,7 @@ struct Block
     for (std::size_t i = 0; i < n.n_owned; ++i)
     {
       position.push_back(n.position[i]);
-      volume.push_back(world.bodies[0]->volume_point(i));
+      volume.push_back(world.bodies[0]->particles()->volume_point(i));
     }
   }
 
@@ -163,14 +163,16 @@ TEST(Standing, surface_of_a_quarter_cylinder_is_its_foot_top_and_side)
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
     const Vec x = n.position[i];
-    const SurfacePoint point = bar.surface_point(i);
+    const SurfacePoint point = bar.particles()->surface_point(i);
     const double r = std::hypot(x[0], x[1]);
     const bool on_side = r > R - 1e-6,
                on_foot = x[2]<1e-9, on_top = x[2]> L - 1e-9;
     // Mirror images take away what would look across a plane.
     for (int d = 0; d < 2; ++d)
       if (x[d] < 1e-9)
+      {
         EXPECT_EQ(point.normal[d], 0.);
+      }
     if (on_side && (on_foot || on_top))
     {
       EXPECT_LT(point.flatness, 0.1);

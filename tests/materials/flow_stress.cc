@@ -18,7 +18,7 @@ const ElasticConstants aluminium{2700., 68.9e9, 0.33};
 double flow_stress(const Material &law, const std::vector<double> &states,
                    const double pressure = 0., const double jacobian = 1.)
 {
-  MaterialPoints points(law);
+  FlowStressProbe points(law);
   points.add(pressure, jacobian,
              [&](const std::size_t row) { return states[row]; });
   return points.flow_stress()[0];
@@ -97,7 +97,7 @@ TEST(FlowStress, of_a_law_that_never_yields)
 TEST(FlowStress, of_many_points_at_once)
 {
   const HardeningPlasticity law(aluminium, {300e6, 2e9, 1.});
-  MaterialPoints points(law);
+  FlowStressProbe points(law);
   for (int i = 0; i < 200; ++i)
     points.add(0., 1., [&](std::size_t) { return 1e-3 * i; });
   const std::vector<double> Y = points.flow_stress();

@@ -58,13 +58,13 @@ TEST(Elastic, rigid_rotation_turns_the_stress_only)
 
 TEST(Laws, first_yield_is_where_they_say)
 {
-  EXPECT_GT(Elastic(aluminium).initial_yield_stress(), 1e100);
+  EXPECT_FALSE(Elastic(aluminium).initial_yield_stress());
   const HardeningPlasticity hardening(aluminium, {324e6, 150e6, 0.5});
   const JohnsonCook johnson(aluminium, johnson_cook());
   for (const Material *law : {static_cast<const Material *>(&hardening),
                               static_cast<const Material *>(&johnson)})
   {
-    const double Y = law->initial_yield_stress();
+    const double Y = law->initial_yield_stress().value();
     EXPECT_NEAR(Y, 324e6, 0.001 * 324e6);
     // The last elastic and the first plastic of small steps bracket it.
     Point point(*law);

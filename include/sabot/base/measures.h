@@ -1,6 +1,7 @@
 #ifndef sabot_base_measures_h
 #define sabot_base_measures_h
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,6 +15,36 @@ struct Measure
   double value;
 };
 using Measures = std::vector<Measure>;
+
+/** The value of the measure called @p name; throws std::logic_error where
+    there is none. */
+double find_measure(const Measures &measures, const std::string &name);
+
+/** A whole body at one moment, the same on all ranks. */
+struct BodyMeasures
+{
+  double mass = 0.;                        // [kg]
+  std::array<double, 3> velocity{};        // of the center of mass [m/s]
+  double kinetic_energy = 0.;              // [J]
+  std::array<double, 3> low{}, high{};     // bounds of the nodes [m]
+  double internal_energy = 0.;             // [J]
+  double eroded_mass = 0.;                 // [kg]
+  std::array<double, 3> eroded_momentum{}; // [kg m/s]
+  double bonds_broken_fraction = 0.;       // of all bonds of the start
+  /** What the kind of body knows besides, e.g. hourglass energy, largest
+      plastic strain, broken bonds: more columns of the history. */
+  Measures own;
+
+  /** All of it as columns of the history: mass, velocity, kinetic energy,
+      bounds, internal energy, own. */
+  Measures columns() const;
+  /** The column called @p name; throws std::logic_error where there is
+      none. */
+  double find(const std::string &name) const
+  {
+    return find_measure(columns(), name);
+  }
+};
 
 /** Values of one output field on the points or cells of an OutputMesh. */
 struct OutputField

@@ -7,6 +7,7 @@
 
 #include <iosfwd>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ public:
 
   /** Set what the file sets. Every entry must be declared in @p prm. */
   void parse_into(Parameters &prm) const;
+  /** Entries that go by a name of an earlier version (entry_aliases.h), one
+      line for each name; lookups know the present names only. */
+  const std::vector<std::string> &notes() const { return said; }
 
   const std::string file_name;
 
@@ -55,9 +59,15 @@ private:
   std::vector<Entry> entries;                // in order, each path once
   std::map<std::string, std::size_t> number; // path -> entries
   std::vector<std::pair<std::string, std::string>> sections; // path, origin
+  std::set<std::string> renamed; // old names that were met
+  std::vector<std::string> said; // about them
 };
 
-/** The declared entries as markdown: name, default, meaning, allowed values. */
+/** The declared entries as tables in Markdown, one for each subsection: name,
+    default, meaning, allowed values. */
+void print_tables(const Parameters &prm, std::ostream &out);
+
+/** The same below a title. */
 void print_manual(const Parameters &prm, std::ostream &out);
 
 /** The declared entries in a @p format that deal.II offers: "prm", "json" or

@@ -76,7 +76,7 @@ public:
   Parameters &operator=(const Parameters &) = delete;
 
   void declare_entry(const std::string &name, const std::string &standard,
-                     const Pattern &pattern, const std::string &meaning);
+                     const Pattern &pattern, const std::string &meaning = "");
   void enter_subsection(const std::string &name);
   void leave_subsection();
 

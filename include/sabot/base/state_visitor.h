@@ -8,8 +8,9 @@ namespace sabot
 {
 /**
  * Enumerates everything that a restart needs, in one place: each body and
- * coupling hands over its arrays by name. A visitor may read or overwrite
- * them.
+ * coupling hands over its arrays by name, always in the same order. A visitor
+ * may read or overwrite them, bit by bit; names tell what is amiss when a
+ * checkpoint does not fit. Local to a rank: nothing is exchanged.
  */
 class StateVisitor
 {
@@ -42,6 +43,12 @@ public:
     data.resize(n_entries(name, data.size()));
     visit_array(name, data);
   }
+  /** A text of any length. */
+  void visit_text(const std::string &name, std::string &text)
+  {
+    visit_resized(name, text);
+  }
+  /** A number, or another object without pointers. */
   template <typename T>
   void visit_value(const std::string &name, T &value)
   {

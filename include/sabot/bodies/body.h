@@ -86,6 +86,56 @@ struct Fragment
   std::array<double, 3> velocity{}; // of the centre of mass [m/s]
 };
 
+/** Damage and flow at one place of a body's material. */
+struct MaterialSite
+{
+  std::array<double, 3> reference_position; // particle or center of cell [m]
+  double plastic_strain = 0.;               // effective
+  double failed_share = 0.;                 // of the bonds that end here
+};
+
+/** View of a body whose surface is faces with cells behind them. */
+class FaceView
+{
+public:
+  virtual ~FaceView() = default;
+  /** Nodes (local, VTK order) of the cells behind the faces of
+      contact_surface(), where this rank owns the face's lowest node. */
+  virtual std::vector<std::array<std::size_t, 8>>
+  cells_behind_faces() const = 0;
+  /** Whether the faces deform: only such a body leads a tie or folds onto
+      itself. */
+  virtual bool deform() const = 0;
+};
+
+/** View of a body of particles, which has a surface without faces and whose
+    parts may come loose. All functions are local to a rank. */
+class ParticleView
+{
+public:
+  virtual ~ParticleView() = default;
+  /** Owned node @p i as part of a surface without faces, now. */
+  virtual SurfacePoint surface_point(const std::size_t i) const = 0;
+  /** Owned node @p i as part of a volume without cells, now. */
+  virtual VolumePoint volume_point(const std::size_t i) const = 0;
+  /** What has come loose; empty for a body whose parts never do. */
+  virtual DebrisView debris() const = 0;
+  /** Whether owned node @p i is still bonded to node @p j (global). */
+  virtual bool are_bonded(const std::size_t i, const GlobalIndex j) const = 0;
+  /** Bonds of owned particles, each counted at both ends. */
+  virtual std::size_t n_bonds() const = 0;
+};
+
+/** View of a body that may come apart. */
+class FragmentView
+{
+public:
+  virtual ~FragmentView() = default;
+  /** Pieces that bonds still hold together, heaviest first. Collective, same
+      on all ranks. */
+  virtual std::vector<Fragment> connected_pieces() const = 0;
+};
+
 /**
  * Anything with nodes that moves. The integrator, the couplings and the output
  * see bodies through this class only.
@@ -140,9 +190,8 @@ public:
 
   /** Add this rank's share. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;
-  /** Mass, velocity, energies, extremes over the whole body, plus what the
-      kind of body knows (e.g. bonds broken). Collective, same on all ranks. */
-  virtual Measures measure() const = 0;
+  /** The whole body at this moment. Collective, same on all ranks. */
+  virtual BodyMeasures measure() const = 0;
   virtual OutputMesh output_mesh() const = 0;
   /** Everything that a restart needs. */
   virtual void visit_state(StateVisitor &visitor) = 0;
@@ -151,12 +200,6 @@ public:
   /** Changes whenever contact_surface() would return something new. */
   virtual unsigned int contact_surface_version() const { return 0; }
 
-  /** Nodes (local, VTK order) of the cells behind the faces of
-      contact_surface(), where this rank owns the face's lowest node. */
-  virtual std::vector<std::array<std::size_t, 8>> cells_behind_faces() const
-  {
-    return {};
-  }
   /** Present uniaxial flow stress [Pa] of the surface at some owned nodes of
       it; 1e300: does not yield. */
   virtual std::vector<double>
@@ -165,26 +208,16 @@ public:
     return std::vector<double>(some_nodes.size(), 1e300);
   }
 
-  /** Owned node @p i as part of a surface without faces, now. */
-  virtual SurfacePoint surface_point(const std::size_t /*i*/) const
-  {
-    return {};
-  }
-  /** Owned node @p i as part of a volume without cells, now. */
-  virtual VolumePoint volume_point(const std::size_t /*i*/) const { return {}; }
+  // What only some bodies are: null for the others.
+  virtual const FaceView *faces() const { return nullptr; }
+  virtual const ParticleView *particles() const { return nullptr; }
+  virtual const FragmentView *fragments() const { return nullptr; }
+  /** Whether nodes move by their own forces, so that a tie may lead them; not
+      those of a rigid body. */
+  virtual bool moves_node_by_node() const { return true; }
 
-  /** Empty for a body whose parts never come loose. */
-  virtual DebrisView debris() const { return {}; }
-  /** Whether owned node @p i is still bonded to node @p j (global). */
-  virtual bool are_bonded(const std::size_t /*i*/,
-                          const GlobalIndex /*j*/) const
-  {
-    return false;
-  }
-
-  /** Pieces that bonds still hold together, heaviest first; empty for a body
-      that cannot come apart. Collective, same on all ranks. */
-  virtual std::vector<Fragment> fragments() const { return {}; }
+  /** This rank's cells or particles as places of flow and failure. */
+  virtual std::vector<MaterialSite> material_sites() const { return {}; }
 
   /** "particles" or "cells", the number over all ranks, and the name of the
       timer of the force loop ("spg step", "fem step"). */

@@ -3,6 +3,7 @@
 
 #include "sabot/base/measures.h"
 #include "sabot/base/nodal_state.h"
+#include "sabot/base/output_fields.h"
 #include "sabot/materials/material.h"
 
 #include <mpi.h>
@@ -15,20 +16,21 @@ namespace sabot
     arrays [component][n], as output fields. */
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
-                         const std::size_t n, const std::vector<double> &stress,
-                         const std::vector<double> &state,
+                         const std::size_t n, const double *stress,
+                         const double *state,
                          const std::vector<StateVariable> &variables);
 
-/** A field with value(item, component) for @p n items. */
+/** A field with value(item, component) for @p n items; unit and number of
+    components are those of its description (base/output_fields.h). */
 template <typename Value>
 void add_field(std::vector<OutputField> &fields, const std::string &name,
-               const std::string &unit, const std::size_t n,
-               const unsigned int n_components, const Value &value)
+               const std::size_t n, const Value &value)
 {
-  OutputField field{name, unit, n_components, {}};
-  field.values.reserve(n * n_components);
+  const FieldDescription &described = described_field(name);
+  OutputField field{name, described.unit, described.n_components, {}};
+  field.values.reserve(n * field.n_components);
   for (std::size_t i = 0; i < n; ++i)
-    for (unsigned int c = 0; c < n_components; ++c)
+    for (unsigned int c = 0; c < field.n_components; ++c)
       field.values.push_back(value(i, c));
   fields.push_back(std::move(field));
 }
@@ -36,12 +38,12 @@ void add_field(std::vector<OutputField> &fields, const std::string &name,
 /** Mass, velocity of the centre of mass, kinetic energy and bounding box of
     all owned nodes that are not left out ([n_owned], may be null). Collective,
     the same for every number of ranks. */
-Measures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
-                       const std::vector<char> *left_out = nullptr);
+BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
+                           const std::vector<char> *left_out = nullptr);
 
 /** Start of the array of a scalar state variable in [state][n], or null. */
 const double *find_state(const std::vector<StateVariable> &variables,
-                         const std::vector<double> &state, const std::size_t n,
+                         const double *state, const std::size_t n,
                          const std::string &name);
 
 /** Number of arrays that the state variables take. */

@@ -7,11 +7,12 @@
 
 namespace sabot
 {
-/** Copies of material points as they are now. */
-class MaterialPoints
+/** Asks a law for the flow stress of copies of material points as they are
+    now. */
+class FlowStressProbe
 {
 public:
-  explicit MaterialPoints(const Material &material);
+  explicit FlowStressProbe(const Material &material);
   /** Append a point; @p state(row): of the material's arrays. */
   template <typename State>
   void add(const double pressure, const double jacobian, const State &state)

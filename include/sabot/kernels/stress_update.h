@@ -57,7 +57,7 @@ inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
 template <std::size_t capacity>
 inline void rotate_strain_to_end(const std::size_t n,
                                  const double *const spin[3],
-                                 double strain[6][capacity])
+                                 double *const strain[6])
 {
   double half_spin_of[3][capacity];
   const double *half_spin[3];
@@ -67,9 +67,7 @@ inline void rotate_strain_to_end(const std::size_t n,
     for (std::size_t k = 0; k < n; ++k)
       half_spin_of[c][k] = 0.5 * spin[c][k];
   }
-  double *const views[6] = {strain[0], strain[1], strain[2],
-                            strain[3], strain[4], strain[5]};
-  rotate_symmetric(n, half_spin, views);
+  rotate_symmetric(n, half_spin, strain);
 }
 
 /** energy += half_volume * stress : strain_increment for @p n points; called

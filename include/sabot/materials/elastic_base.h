@@ -4,8 +4,6 @@
 #include "sabot/materials/equation_of_state.h"
 #include "sabot/materials/material.h"
 
-#include <functional>
-
 namespace sabot
 {
 /** Density and isotropic elasticity, shared by all laws. */
@@ -65,23 +63,6 @@ protected:
 
 private:
   const std::size_t n_eos_states;
-};
-
-/** A law that scenes can name. A law's file registers it. */
-struct MaterialModel
-{
-  std::string name, description;
-  /** Empty for a law without entries of its own. */
-  std::function<void(Parameters &)> declare;
-  std::function<std::unique_ptr<Material>(Parameters &, const std::string &path,
-                                          const ElasticConstants &,
-                                          const ElasticBase::Eos &)>
-      make;
-};
-std::vector<MaterialModel> &material_models();
-struct RegisterMaterial
-{
-  explicit RegisterMaterial(const MaterialModel &model);
 };
 } // namespace sabot
 

@@ -3,6 +3,7 @@
 
 #include "sabot/materials/elastic_base.h"
 #include "sabot/materials/johnson_cook.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "sabot/materials/steinberg_guinan.h"
 #include "sabot/materials/zerilli_armstrong.h"
 
@@ -48,7 +49,10 @@ public:
                       const HardeningParameters &parameters,
                       const Eos &eos = {});
 
-  double initial_yield_stress() const override { return pieces[0].stress; }
+  std::optional<double> initial_yield_stress() const override
+  {
+    return pieces[0].stress;
+  }
 
 protected:
   std::vector<StateVariable> law_variables() const override;

@@ -3,16 +3,16 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace sabot
 {
+class EquationOfState;
 class Parameters;
-}
+struct ElasticConstants;
 
-namespace sabot
-{
 /** Order of symmetric tensors everywhere: xx, yy, zz, xy, yz, xz. */
 constexpr int n_symmetric = 6;
 
@@ -56,23 +56,47 @@ struct MaterialBatch
 /** A state variable of a material. */
 struct StateVariable
 {
-  std::string name, unit;
+  /** Of a scalar also the name of an output field: it must be described
+      (base/output_fields.h), where its unit stands. */
+  std::string name;
   double initial_value = 0.;
   /** A symmetric tensor (six consecutive arrays) is rotated with the stress. */
   bool is_tensor = false;
 };
 
-/** A constitutive law for batches of points, the same for FEM and SPG. */
+/**
+ * A constitutive law for batches of points, the same for FEM and SPG: from
+ * stress, state and strain increment of a step to stress and state at its end.
+ * A new one is one file with a class, its entries and its registration, as
+ * source/materials/elastic.cc is; most derive from ElasticBase, which leaves
+ * them the deviator, or are a Flow of RateDependentPlasticity. Its entries
+ * stand in a subsection of its name, below the material's.
+ *
+ * Objects do not change once made and hold no state of points, so that one
+ * serves all bodies and threads. No function is collective.
+ */
 class Material
 {
 public:
+  static constexpr const char *kind = "material law";
+  /** Makes one from the entries that its subsection holds, which the caller
+      has entered; @p path of that subsection, for messages. InputError for
+      values that cannot be. */
+  using Make = std::unique_ptr<Material>(
+      const Parameters &prm, const std::string &path,
+      const ElasticConstants &elastic,
+      const std::shared_ptr<const EquationOfState> &equation_of_state);
+
   virtual ~Material() = default;
-  virtual double density() const = 0;       // [kg/m^3]
-  virtual double bulk_modulus() const = 0;  // [Pa]
-  virtual double shear_modulus() const = 0; // [Pa]
-  /** Uniaxial, slow, at the initial temperature [Pa]; laws that never yield
-      leave it. */
-  virtual double initial_yield_stress() const { return 1e300; }
+  virtual double density() const = 0;       // rho_0, stress-free [kg/m^3]
+  virtual double bulk_modulus() const = 0;  // K at rest [Pa]
+  virtual double shear_modulus() const = 0; // G at rest [Pa]
+  /** Uniaxial, slow, at the initial temperature [Pa]; nothing for laws that
+      never yield. */
+  virtual std::optional<double> initial_yield_stress() const
+  {
+    return std::nullopt;
+  }
   /** Dilatational wave speed sqrt((K + 4/3 G)/rho) [m/s]. */
   double sound_speed() const;
   /** One entry per array, except that a tensor entry stands for six. By
@@ -95,10 +119,10 @@ public:
   /** What looks odd in the values, for the log. */
   std::vector<std::string> warnings;
 
-  /** Declare / read the entries of one material; "Model" selects the law and
-      "Equation of state" the pressure, only their subsections are declared.
-      Names that are empty or unknown declare all, as the manual does. @p path
-      is where they stand, for messages. */
+  /** Declare the entries of one material in the present subsection; "Model"
+      selects the law and "Equation of state" the pressure, only their
+      subsections are declared. Names that are empty or unknown declare all, as
+      the manual does. */
   static void declare_parameters(Parameters &prm, const std::string &model = "",
                                  const std::string &equation_of_state = "");
   /** Throw InputError for the first of @p subsections that @p model and
@@ -107,6 +131,8 @@ public:
                                 const std::vector<std::string> &subsections,
                                 const std::string &model,
                                 const std::string &equation_of_state);
+  /** The material that the present subsection describes; @p path is where it
+      stands, for messages. InputError. */
   static std::unique_ptr<Material> make(Parameters &prm,
                                         const std::string &path);
 };

@@ -50,7 +50,7 @@ public:
   }
   double specific_heat() const override { return thermal.specific_heat; }
   double conductivity() const override { return thermal.conductivity; }
-  double initial_yield_stress() const override
+  std::optional<double> initial_yield_stress() const override
   {
     double slope;
     return flow.stress(flow.at(thermal.initial_temperature, 0., 1.), 0., 0., 1.,
@@ -64,8 +64,8 @@ public:
 protected:
   std::vector<StateVariable> law_variables() const override
   {
-    return {{"effective plastic strain", "1", 0., false},
-            {"temperature", "K", thermal.initial_temperature, false}};
+    return {{"effective plastic strain", 0., false},
+            {"temperature", thermal.initial_temperature, false}};
   }
   void update_deviator(const MaterialBatch &batch,
                        Scratch &scratch) const override;

@@ -2,7 +2,7 @@
 #define sabot_simulation_run_h
 
 #include "sabot/base/error.h"
-#include "sabot/integrator/central_difference.h"
+#include "sabot/integrator/stepper.h"
 #include "sabot/output/checkpoint.h"
 #include "sabot/output/history.h"
 #include "sabot/output/log.h"
@@ -18,6 +18,9 @@ namespace sabot
 {
 /** Version of the program. */
 std::string version();
+
+/** Bounds of the step that a scene sets. */
+StepLimits step_limits(const RunSettings &settings);
 
 /**
  * Runs a scene to its end and leaves its results in a folder: result.json,
@@ -45,7 +48,6 @@ private:
   void describe_scene();
   void set_initial_values();
   void loop();
-  double next_step(const StepProposal &proposal) const;
   void record();
   void write_fields();
   void write_outputs(const bool all);
@@ -73,12 +75,12 @@ private:
   int rank, n_ranks;
   Log log;
   Timers timers;
-  CentralDifference integrator;
+  Stepper stepper;
   History history;
   std::unique_ptr<VtuWriter> fields;
 
-  unsigned int step = 0, frame = 0;
-  double dt = 0., smallest_step = std::numeric_limits<double>::max();
+  unsigned int frame = 0;
+  double smallest_step = std::numeric_limits<double>::max();
   std::string limiter;
   std::vector<double> next_output; // [s], per output of the scene
   double next_check = 0.;

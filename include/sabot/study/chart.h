@@ -1,7 +1,7 @@
 #ifndef sabot_study_chart_h
 #define sabot_study_chart_h
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

@@ -73,7 +73,20 @@ struct StudyResults
       that set it apart from the base, or "base". */
   std::string label(const std::size_t run) const;
   std::string unit(const std::size_t quantity) const;
+  /** Everything worth drawing, in the report's order. */
   std::vector<Chart> charts() const;
+
+private:
+  /** Whether a run ended well and has the quantity. */
+  bool is_usable(const std::size_t run, const std::size_t quantity) const;
+  /** Add the series of a quantity over a parameter that is a spacing. */
+  void find_convergence(const std::size_t parameter,
+                        const std::size_t quantity);
+  /** The measured value; where there is none the limit of the base's
+      convergence, else the value of the run that took longest. */
+  ErrorReference find_reference(const std::size_t quantity) const;
+  /** Add prices and Pareto front of a quantity, whose reference is known. */
+  void find_prices(const std::size_t quantity);
 };
 
 /** Names of the parts of the energy that are not zero in every run. */

@@ -84,6 +84,8 @@ struct StudyFile
 private:
   void read(const ParameterFile &file);
   void list_runs();
+  /** The run with value @p choice of each parameter; checks its scene. */
+  StudyRun make_run(const std::vector<std::size_t> &choice) const;
 };
 } // namespace sabot
 

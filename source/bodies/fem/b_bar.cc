@@ -281,11 +281,12 @@ void BBar::cell_forces(const NodalState &, const std::size_t e,
     const PackMat &F = motion[e].F[p];
     adjoint[p] = adjugate(F);
     for (int s = 0; s < 6; ++s)
-      stress[p][s] = load_pack(&stress_data[s * stride + point]);
+      stress[p][s] = load_pack(points.stress_row(s) + point);
     const Pack v = g.volume[p] * determinant(F);
     const Pack pressure = (stress[p][0] + stress[p][1] + stress[p][2]) / 3.;
     cell_volume += sum_lanes(v);
-    mean += sum_lanes(v * (pressure - load_pack(&viscous_pressure[point])));
+    mean +=
+        sum_lanes(v * (pressure - load_pack(&points.viscous_pressure[point])));
     for (int d = 0; d < 3; ++d)
       stress[p][d] -= pressure;
   }

@@ -279,7 +279,7 @@ void FemBody::add_energies(EnergyLedger &ledger) const
     }
 }
 
-Measures FemBody::measure() const
+BodyMeasures FemBody::measure() const
 {
   const std::vector<double> eps = cells->cell_state("effective plastic strain"),
                             temperature = cells->cell_state("temperature");
@@ -295,16 +295,35 @@ Measures FemBody::measure() const
     }
   ExactSum::reduce({&internal, &hourglass}, communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = measure_nodes(nodal_state, communicator, free_nodes());
-  measures.push_back({"internal energy", "J", internal.value()});
-  measures.push_back({"hourglass energy", "J", hourglass.value()});
-  measures.push_back({"plastic strain max", "1", top[0]});
+  BodyMeasures measures =
+      measure_nodes(nodal_state, communicator, free_nodes());
+  measures.internal_energy = internal.value();
+  measures.own.push_back({"hourglass energy", "J", hourglass.value()});
+  measures.own.push_back({"plastic strain max", "1", top[0]});
   // Not from the array, which a rank without cells does not have.
   if (has_state("temperature"))
-    measures.push_back({"temperature max", "K", top[1]});
+    measures.own.push_back({"temperature max", "K", top[1]});
   if (erosion)
     add_erosion_measures(measures);
   return measures;
+}
+
+std::vector<MaterialSite> FemBody::material_sites() const
+{
+  const std::vector<double> eps = cells->cell_state("effective plastic strain");
+  std::vector<MaterialSite> sites;
+  for (std::size_t e = 0; e < cells->size(); ++e)
+    if (owned_cell[e])
+    {
+      MaterialSite site{};
+      for (const std::uint32_t node : cells->connectivity[e])
+        for (int d = 0; d < 3; ++d)
+          site.reference_position[d] +=
+              nodal_state.reference_position[node][d] / 8.;
+      site.plastic_strain = eps.empty() ? 0. : eps[e];
+      sites.push_back(site);
+    }
+  return sites;
 }
 
 OutputMesh FemBody::output_mesh() const
@@ -325,20 +344,20 @@ OutputMesh FemBody::output_mesh() const
       out.connectivity.insert(out.connectivity.end(), nodes.begin(),
                               nodes.end());
     }
-  add_field(out.point_fields, "displacement", "m", n_nodes, 3,
+  add_field(out.point_fields, "displacement", n_nodes,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out.point_fields, "velocity", "m/s", n_nodes, 3,
+  add_field(out.point_fields, "velocity", n_nodes,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
   add_material_fields(out.cell_fields, owned, cells->size(),
-                      cells->cell_stress(), cells->cell_states(),
+                      cells->cell_stress().data(), cells->cell_states().data(),
                       cells->states());
-  add_field(out.cell_fields, "body", "1", owned.size(), 1,
+  add_field(out.cell_fields, "body", owned.size(),
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", "1", owned.size(), 1,
+  add_field(out.cell_fields, "rank", owned.size(),
             [&](std::size_t, unsigned int) { return double(rank); });
   return out;
 }

@@ -210,7 +210,7 @@ void FemBody::visit_erosion(StateVisitor &visitor)
   visitor.visit_value("surface version", surface_version);
 }
 
-void FemBody::add_erosion_measures(Measures &measures) const
+void FemBody::add_erosion_measures(BodyMeasures &measures) const
 {
   ExactSum mass = erosion->mass, n_cells = erosion->n_cells, free_mass, kinetic,
            momentum[3];
@@ -227,12 +227,15 @@ void FemBody::add_erosion_measures(Measures &measures) const
   ExactSum::reduce({&mass, &n_cells, &free_mass, &kinetic, &momentum[0],
                     &momentum[1], &momentum[2]},
                    communicator);
-  measures.push_back({"eroded mass", "kg", mass.value()});
-  measures.push_back({"eroded cells", "1", n_cells.value()});
-  measures.push_back({"free node mass", "kg", free_mass.value()});
-  measures.push_back({"free node kinetic energy", "J", kinetic.value()});
+  measures.eroded_mass = mass.value();
   for (int d = 0; d < 3; ++d)
-    measures.push_back({std::string("eroded momentum ") + "xyz"[d], "kg m/s",
-                        momentum[d].value()});
+    measures.eroded_momentum[d] = momentum[d].value();
+  measures.own.push_back({"eroded mass", "kg", mass.value()});
+  measures.own.push_back({"eroded cells", "1", n_cells.value()});
+  measures.own.push_back({"free node mass", "kg", free_mass.value()});
+  measures.own.push_back({"free node kinetic energy", "J", kinetic.value()});
+  for (int d = 0; d < 3; ++d)
+    measures.own.push_back({std::string("eroded momentum ") + "xyz"[d],
+                            "kg m/s", momentum[d].value()});
 }
 } // namespace sabot

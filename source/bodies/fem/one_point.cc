@@ -128,7 +128,7 @@ void OnePoint::scatter(NodalState &nodes, const std::size_t pack)
   const Pending &in = pending[pack % packs_per_batch];
   Pack s[6];
   for (int i = 0; i < 6; ++i)
-    s[i] = load_pack(&stress_data[i * stride + pack * n_lanes]);
+    s[i] = load_pack(points.stress_row(i) + pack * n_lanes);
   const std::size_t k = pack % packs_per_batch * n_lanes;
   const Pack q = load_pack(&batch.viscous_pressure[k]);
   const PackMat sigma = {
@@ -167,7 +167,7 @@ void OnePoint::cell_forces(const NodalState &nodes, const std::size_t e,
   const Mat F = gradient(e);
   double J;
   const Mat F_inverse = inverse(F, J);
-  Mat P = (volume[e] * J) * (total_stress(e) * transpose(F_inverse));
+  Mat P = (volume[e] * J) * (points.total_stress(e) * transpose(F_inverse));
   Vec x[8], mode[4];
   for (int a = 0; a < 8; ++a)
     x[a] = nodes.position[connectivity[e][a]];

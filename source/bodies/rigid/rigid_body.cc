@@ -154,7 +154,7 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
     if (complete)
     {
-      faces.push_back(face);
+      boundary_faces.push_back(face);
       face_id.push_back(f);
     }
   }
@@ -273,13 +273,12 @@ void RigidBody::add_energies(EnergyLedger &ledger) const
   ledger.external.add(work);
 }
 
-Measures RigidBody::measure() const
+BodyMeasures RigidBody::measure() const
 {
-  Measures measures = measure_nodes(nodal_state, communicator);
-  measures.push_back({"internal energy", "J", 0.});
+  BodyMeasures measures = measure_nodes(nodal_state, communicator);
   const Vec omega = spin(matrix(quaternion));
   for (int d = 0; d < 3; ++d)
-    measures.push_back(
+    measures.own.push_back(
         {std::string("angular velocity ") + "xyz"[d], "1/s", omega[d]});
   return measures;
 }
@@ -301,17 +300,17 @@ OutputMesh RigidBody::output_mesh() const
       out.connectivity.insert(out.connectivity.end(), cells[e].begin(),
                               cells[e].end());
     }
-  add_field(out.point_fields, "displacement", "m", n, 3,
+  add_field(out.point_fields, "displacement", n,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out.point_fields, "velocity", "m/s", n, 3,
+  add_field(out.point_fields, "velocity", n,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
-  add_field(out.cell_fields, "body", "1", n_cells, 1,
+  add_field(out.cell_fields, "body", n_cells,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", "1", n_cells, 1,
+  add_field(out.cell_fields, "rank", n_cells,
             [&](std::size_t, unsigned int) { return double(rank); });
   return out;
 }
@@ -333,9 +332,9 @@ void RigidBody::visit_state(StateVisitor &visitor)
 ContactSurface RigidBody::contact_surface() const
 {
   ContactSurface surface;
-  surface.faces = faces;
+  surface.faces = boundary_faces;
   surface.face_id = face_id;
-  for (const auto &face : faces)
+  for (const auto &face : boundary_faces)
     for (const std::size_t a : face)
       if (a < nodal_state.n_owned)
         surface.nodes.push_back(a);

@@ -17,13 +17,11 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       spacing(this->cloud.spacing),
       mean_spacing(std::cbrt(spacing[0] * spacing[1] * spacing[2])),
       face_axis(this->cloud.face_axis), is_regular(this->cloud.shape.empty()),
-      state_variables(this->material->state_variables())
+      points(this->material)
 {
-  n_states = count_states(state_variables);
   bool known = options.failure_criterion !=
                SpgOptions::FailureCriterion::effective_plastic_strain;
-  for (const StateVariable &variable : state_variables)
-    known = known || variable.name == "effective plastic strain";
+  known = known || points.has_state("effective plastic strain");
   if (options.can_fail() && !known)
     throw InputError("Bodies/" + name + "/Critical effective plastic strain",
                      "the body's material has no effective plastic strain; "
@@ -137,19 +135,10 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
         material->bulk_modulus(), material->shear_modulus(), n);
     second_gradient->generalized_stress.resize(nodal_state.size());
   }
-  stress_data.assign(6 * n, 0.);
-  state_data.resize(n_states * n);
-  std::size_t s = 0;
-  for (const StateVariable &variable : state_variables)
-    for (int c = 0; c < (variable.is_tensor ? 6 : 1); ++c, ++s)
-      std::fill_n(&state_data[s * n], n, variable.initial_value);
-  batch_states.resize(n_states);
-  viscous_pressure.assign(n, 0.);
+  points.allocate(n, n);
   if (material->stiffens())
     stiffening.assign(n, 1.);
-  internal_energy.assign(n, 0.);
   bond_work.assign(n, 0.);
-  plastic_work.assign(n, 0.);
   failure_loss.assign(n, 0.);
   own_force.assign(n, Vec{});
   update_stable_step.resize(n);
@@ -173,8 +162,7 @@ void SpgBody::set_up_conduction()
 
 void SpgBody::conduct_heat(const double time)
 {
-  heat->advance(time - last_conduction,
-                const_cast<double *>(state_array("temperature")));
+  heat->advance(time - last_conduction, points.state("temperature"));
   last_conduction = time;
 }
 
@@ -213,17 +201,6 @@ void SpgBody::renumber(const BondList::Rows &rows)
   failure_measure.resize(ids.size());
   if (second_gradient)
     second_gradient->generalized_stress.resize(ids.size());
-}
-
-const double *SpgBody::state_array(const std::string &wanted) const
-{
-  return find_state(state_variables, state_data, nodal_state.n_owned, wanted);
-}
-
-void SpgBody::set_state(const std::string &wanted, const std::size_t i,
-                        const double value)
-{
-  const_cast<double *>(state_array(wanted))[i] = value;
 }
 
 std::vector<std::size_t>
@@ -265,14 +242,12 @@ ContactSurface SpgBody::contact_surface() const
 std::vector<double>
 SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 {
-  const std::size_t n = nodal_state.n_owned;
-  MaterialPoints points(*material);
+  FlowStressProbe probe(*material);
   for (const std::size_t i : some_nodes)
-    points.add(-(stress(0, i) + stress(1, i) + stress(2, i)) / 3.,
-               determinant(gradient[i]) * kernel_volume[i] /
-                   reference_volume[i],
-               [&](const std::size_t row) { return state_data[row * n + i]; });
-  return points.flow_stress();
+    points.add_to(probe, i,
+                  determinant(gradient[i]) * kernel_volume[i] /
+                      reference_volume[i]);
+  return probe.flow_stress();
 }
 
 SurfacePoint SpgBody::surface_point(const std::size_t i) const

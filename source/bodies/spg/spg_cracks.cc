@@ -20,47 +20,47 @@ double mean(const double s[6])
 }
 } // namespace
 
-void SpgBody::update_material(const MaterialBatch &points,
+void SpgBody::update_material(const MaterialBatch &step,
                               const std::size_t begin)
 {
-  const std::size_t m = points.n;
+  const std::size_t m = step.n;
   const char *const lost = &weak[begin];
   if (std::none_of(lost, lost + m, [](const char w) { return w; }))
   {
-    material->update(points);
+    material->update(step);
     return;
   }
   if (material->needs_deformation_gradient())
   {
     // The stress follows F, not the strain increment; nothing flows.
-    material->update(points);
+    material->update(step);
     for (std::size_t k = 0; k < m; ++k)
       if (lost[k])
       {
         double s[6];
         for (int c = 0; c < 6; ++c)
-          s[c] = points.stress[c][k];
+          s[c] = step.stress[c][k];
         cut_tension(s);
         for (int c = 0; c < 6; ++c)
-          points.stress[c][k] = s[c];
+          step.stress[c][k] = s[c];
       }
     return;
   }
   for (int c = 0; c < 6; ++c)
-    std::copy_n(points.stress[c], m, batch.old_stress[c]);
-  old_states.resize(n_states * batch_size);
-  for (std::size_t s = 0; s < n_states; ++s)
-    std::copy_n(points.states[s], m, &old_states[s * batch_size]);
-  material->update(points);
-  if (!open_cracks(points, begin))
+    std::copy_n(step.stress[c], m, batch.old_stress[c]);
+  old_states.resize(points.n_rows() * batch_size);
+  for (std::size_t s = 0; s < points.n_rows(); ++s)
+    std::copy_n(step.states[s], m, &old_states[s * batch_size]);
+  material->update(step);
+  if (!open_cracks(step, begin))
     return;
 
   // Once more, without what opened the cracks; equal for the other points.
   for (int c = 0; c < 6; ++c)
-    std::copy_n(batch.old_stress[c], m, points.stress[c]);
-  for (std::size_t s = 0; s < n_states; ++s)
-    std::copy_n(&old_states[s * batch_size], m, points.states[s]);
-  MaterialBatch rest = points;
+    std::copy_n(batch.old_stress[c], m, step.stress[c]);
+  for (std::size_t s = 0; s < points.n_rows(); ++s)
+    std::copy_n(&old_states[s * batch_size], m, step.states[s]);
+  MaterialBatch rest = step;
   for (int c = 0; c < 6; ++c)
     rest.strain_increment[c] = batch.uncracked_strain[c];
   material->update(rest);
@@ -71,16 +71,16 @@ void SpgBody::update_material(const MaterialBatch &points,
     // The mean is what leaves no tension across the crack, or the pressure.
     double s[6];
     for (int c = 0; c < 6; ++c)
-      s[c] = points.stress[c][k];
+      s[c] = step.stress[c][k];
     const double excess = largest_principal(s);
     if (excess > 0.)
       add_mean(s, -excess);
     double loss = 0.;
     for (int c = 0; c < 6; ++c)
     {
-      points.stress[c][k] = s[c];
+      step.stress[c][k] = s[c];
       loss += (c < 3 ? 1. : 2.) * s[c] *
-              (points.strain_increment[c][k] - batch.uncracked_strain[c][k]);
+              (step.strain_increment[c][k] - batch.uncracked_strain[c][k]);
     }
     failure_loss[begin + k] += 2. * batch.half_volume[k] * loss;
   }

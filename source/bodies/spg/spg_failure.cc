@@ -20,7 +20,7 @@ void SpgBody::update_failure_measure()
   {
   case Criterion::effective_plastic_strain:
   {
-    const double *const eps = state_array("effective plastic strain");
+    const double *const eps = points.state("effective plastic strain");
     std::copy(eps, eps + n, failure_measure.begin());
     break;
   }
@@ -168,7 +168,7 @@ std::vector<GlobalIndex> SpgBody::fragment_labels() const
   return label;
 }
 
-std::vector<Fragment> SpgBody::fragments() const
+std::vector<Fragment> SpgBody::connected_pieces() const
 {
   const std::vector<GlobalIndex> label = fragment_labels();
   struct Sums

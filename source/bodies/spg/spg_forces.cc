@@ -144,7 +144,7 @@ void SpgBody::gradients(const std::size_t begin, const std::size_t end,
     const double rate = dt > 0. ? trace(l) / dt : 0.;
     const double h = std::min(std::cbrt(V * J), 2. * c * step);
     // Without a step that of the last one stays.
-    batch.viscous_pressure[k] = viscous_pressure[i];
+    batch.viscous_pressure[k] = points.viscous_pressure[i];
     if (dt > 0.)
     {
       batch.viscous_pressure[k] = bulk_viscosity_pressure(
@@ -227,90 +227,29 @@ void SpgBody::residuals(const std::size_t begin, const std::size_t end)
 void SpgBody::stresses(const std::size_t begin, const std::size_t end,
                        const double dt)
 {
-  const std::size_t n = nodal_state.n_owned, m = end - begin;
-  double *stress[6];
-  const double *strain[6], *spin[3];
-  for (int c = 0; c < 6; ++c)
-  {
-    stress[c] = &stress_data[c * n + begin];
-    strain[c] = batch.strain[c];
-  }
-  for (int c = 0; c < 3; ++c)
-    spin[c] = batch.spin[c];
-  std::vector<double *> &states = batch_states;
-  for (std::size_t s = 0; s < n_states; ++s)
-    states[s] = &state_data[s * n + begin];
-
-  rotate_symmetric(m, spin, stress);
-  rotate_strain_to_end(m, spin, batch.strain);
-  std::size_t first = 0;
-  for (const StateVariable &variable : state_variables)
-  {
-    if (variable.is_tensor)
-      rotate_symmetric(m, spin, &states[first]);
-    first += variable.is_tensor ? 6 : 1;
-  }
-
-  const double *old_stress[6] = {stress[0], stress[1], stress[2],
-                                 stress[3], stress[4], stress[5]};
-  half_work(m, old_stress, strain, batch.half_volume, &internal_energy[begin]);
-
-  MaterialBatch points;
-  points.n = m;
-  points.dt = dt;
-  std::copy(strain, strain + 6, points.strain_increment);
-  points.jacobian = batch.jacobian;
-  std::copy(stress, stress + 6, points.stress);
-  points.states = states.data();
-  points.extra_square = batch.extra_square;
-  points.return_factor = batch.return_factor;
-  points.plastic_work = batch.plastic_work;
-  if (material->needs_viscous_pressure())
-  {
-    for (std::size_t k = 0; k < m; ++k)
-      batch.mean_viscous_pressure[k] =
-          0.5 * (viscous_pressure[begin + k] + batch.viscous_pressure[k]);
-    points.viscous_pressure = batch.mean_viscous_pressure;
-  }
   if (material->needs_deformation_gradient())
-    for (std::size_t k = 0; k < m; ++k)
+    for (std::size_t i = begin; i < end; ++i)
     {
-      const Mat F = deformation_gradient(begin + k);
+      const Mat F = deformation_gradient(i);
       for (int c = 0; c < 9; ++c)
-      {
-        batch.deformation_gradient[c][k] = F(c / 3, c % 3);
-        points.deformation_gradient[c] = batch.deformation_gradient[c];
-      }
+        batch.deformation_gradient[c][i - begin] = F(c / 3, c % 3);
     }
+  PointStep step = batch.views(begin, end - begin, dt);
+  step.extra_square = batch.extra_square;
   if (!stiffening.empty())
-    points.stiffening = &stiffening[begin];
-  update_material(points, begin);
-  half_work(m, old_stress, strain, batch.half_volume, &internal_energy[begin]);
-  for (std::size_t k = 0; k < m; ++k)
-  {
-    internal_energy[begin + k] -=
-        (viscous_pressure[begin + k] + batch.viscous_pressure[k]) *
-        batch.half_volume[k] *
-        (batch.strain[0][k] + batch.strain[1][k] + batch.strain[2][k]);
-    viscous_pressure[begin + k] = batch.viscous_pressure[k];
-    plastic_work[begin + k] +=
-        2. * batch.plastic_work[k] * batch.half_volume[k];
-  }
+    step.stiffening = &stiffening[begin];
+  update_material(points.rotate(step), begin);
+  points.finish(step);
 }
 
 template <bool stored_gradients, SpgBody::Stabilization stabilization>
 void SpgBody::generalized_stresses(const std::size_t begin,
                                    const std::size_t end)
 {
-  const std::size_t n = nodal_state.n_owned;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::size_t k = i - begin;
-    const double q = batch.viscous_pressure[k];
-    const double *const s = &stress_data[i];
-    const Mat sigma = {{vec(s[0] - q, s[3 * n], s[5 * n]),
-                        vec(s[3 * n], s[n] - q, s[4 * n]),
-                        vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
+    const Mat sigma = points.total_stress(i, batch.viscous_pressure[k]);
     const double V = batch.jacobian[k] * reference_volume[i]; // J V
     const double theta = batch.return_factor[k];
     Mat spatial = V * sigma;

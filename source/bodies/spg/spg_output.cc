@@ -12,32 +12,29 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
   {
     ledger.kinetic.add(0.5 * nodal_state.inertia[i] *
                        norm_square(nodal_state.velocity[i]));
-    ledger.internal.add(internal_energy[i]);
+    ledger.internal.add(points.internal_energy[i]);
     ledger.stabilization.add(bond_work[i]);
     if (second_gradient)
       ledger.stabilization.add(second_gradient->work[i]);
-    ledger.plastic_work.add(plastic_work[i]);
+    ledger.plastic_work.add(points.plastic_work[i]);
     ledger.failure.add(failure_loss[i]);
   }
 }
 
-Measures SpgBody::measure() const
+BodyMeasures SpgBody::measure() const
 {
-  const double *const eps = state_array("effective plastic strain");
-  const double *const temperature = state_array("temperature");
-  bool has_temperature = false; // also on ranks without particles
-  for (const StateVariable &variable : state_variables)
-    has_temperature = has_temperature || variable.name == "temperature";
+  const double *const eps = points.state("effective plastic strain");
+  const double *const temperature = points.state("temperature");
   ExactSum internal, stabilization, plastic, failure, bonds_failed, bonds_all,
       n_weak, n_isolated, fallbacks;
   fallbacks.add(n_fallback);
   double top[2] = {0., 0.};
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
   {
-    internal.add(internal_energy[i]);
+    internal.add(points.internal_energy[i]);
     stabilization.add(bond_work[i] +
                       (second_gradient ? second_gradient->work[i] : 0.));
-    plastic.add(plastic_work[i]);
+    plastic.add(points.plastic_work[i]);
     failure.add(failure_loss[i]);
     bonds_failed.add(n_failed[i]);
     bonds_all.add(bonds.n_bonds(i) + n_failed[i]);
@@ -51,25 +48,58 @@ Measures SpgBody::measure() const
                     &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  Measures measures = measure_nodes(nodal_state, communicator);
-  measures.push_back({"internal energy", "J", internal.value()});
-  measures.push_back({"stabilisation energy", "J", stabilization.value()});
-  measures.push_back({"plastic work", "J", plastic.value()});
+  BodyMeasures measures = measure_nodes(nodal_state, communicator);
+  measures.internal_energy = internal.value();
+  measures.own.push_back({"stabilisation energy", "J", stabilization.value()});
+  measures.own.push_back({"plastic work", "J", plastic.value()});
   if (options.can_fail())
-    measures.push_back({"failure energy", "J", failure.value()});
-  measures.push_back({"plastic strain max", "1", top[0]});
+    measures.own.push_back({"failure energy", "J", failure.value()});
+  measures.own.push_back({"plastic strain max", "1", top[0]});
   const double n = bonds_all.value();
-  measures.push_back(
-      {"bonds broken fraction", "1", n > 0. ? bonds_failed.value() / n : 0.});
-  measures.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
-  measures.push_back({"weak particles", "1", n_weak.value()});
-  measures.push_back({"isolated particles", "1", n_isolated.value()});
+  measures.bonds_broken_fraction = n > 0. ? bonds_failed.value() / n : 0.;
+  measures.own.push_back(
+      {"bonds broken fraction", "1", measures.bonds_broken_fraction});
+  measures.own.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
+  measures.own.push_back({"weak particles", "1", n_weak.value()});
+  measures.own.push_back({"isolated particles", "1", n_isolated.value()});
   if (options.approximation != SpgOptions::Approximation::least_squares)
-    measures.push_back({"approximation fallbacks", "1", fallbacks.value()});
-  if (has_temperature)
-    measures.push_back({"temperature max", "K", top[1]});
+    measures.own.push_back({"approximation fallbacks", "1", fallbacks.value()});
+  if (points.has_state("temperature"))
+    measures.own.push_back({"temperature max", "K", top[1]});
   return measures;
 }
+
+std::vector<MaterialSite> SpgBody::material_sites() const
+{
+  const double *const eps = points.state("effective plastic strain");
+  std::vector<MaterialSite> sites(nodal_state.n_owned);
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  {
+    const Vec X = nodal_state.reference_position[i];
+    const double n = bonds.n_bonds(i) + n_failed[i];
+    sites[i] = {
+        {{X[0], X[1], X[2]}}, eps ? eps[i] : 0., n > 0. ? n_failed[i] / n : 0.};
+  }
+  return sites;
+}
+
+std::size_t SpgBody::n_bonds() const
+{
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    n += bonds.n_bonds(i);
+  return n;
+}
+
+namespace
+{
+const DescribeField described[] = {
+    DescribeField({"failed-bond fraction", "1", 1, "particles",
+                   "Failed bonds of the particle over all it has had."}),
+    DescribeField({"fragment", "1", 1, "particles whose bonds may fail",
+                   "Lowest number of a particle in the piece that bonds still "
+                   "hold together."})};
+} // namespace
 
 OutputMesh SpgBody::output_mesh() const
 {
@@ -87,17 +117,16 @@ OutputMesh SpgBody::output_mesh() const
     mesh.connectivity.push_back(i);
   }
   std::vector<OutputField> &fields = mesh.point_fields;
-  add_field(fields, "displacement", "m", n, 3,
+  add_field(fields, "displacement", n,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(fields, "velocity", "m/s", n, 3,
+  add_field(fields, "velocity", n,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
-  add_material_fields(fields, items, n, stress_data, state_data,
-                      state_variables);
-  add_field(fields, "failed-bond fraction", "1", n, 1,
+  points.add_fields(fields, items);
+  add_field(fields, "failed-bond fraction", n,
             [&](const std::size_t i, const unsigned int)
             {
               const double all = bonds.n_bonds(i) + n_failed[i];
@@ -106,13 +135,13 @@ OutputMesh SpgBody::output_mesh() const
   if (options.can_fail())
   {
     const std::vector<GlobalIndex> labels = fragment_labels();
-    add_field(fields, "fragment", "1", n, 1,
+    add_field(fields, "fragment", n,
               [&](const std::size_t i, const unsigned int)
               { return double(labels[i]); });
   }
-  add_field(fields, "body", "1", n, 1,
+  add_field(fields, "body", n,
             [&](std::size_t, unsigned int) { return double(id); });
-  add_field(fields, "rank", "1", n, 1,
+  add_field(fields, "rank", n,
             [&](std::size_t, unsigned int) { return double(rank); });
   return mesh;
 }
@@ -199,13 +228,9 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visit("residual factor", residual_factor);
   visit("weak", weak);
   visit("failed bonds", n_failed);
-  visit("stress", stress_data);
-  visit("state", state_data);
-  visit("viscous pressure", viscous_pressure);
+  points.visit_state(visitor);
   visit("stiffening", stiffening);
-  visit("internal energy", internal_energy);
   visit("bond work", bond_work);
-  visit("plastic work", plastic_work);
   visit("failure loss", failure_loss);
   visit("update stable step", update_stable_step);
   if (second_gradient)

@@ -19,7 +19,7 @@ namespace sabot
  * Nodes, boundary, erosion and reports of a body of hexahedra; what its cells
  * do is up to Hexahedra.
  */
-class FemBody : public Body
+class FemBody : public Body, public FaceView
 {
 public:
   FemBody(const std::string &name, const int id, HexMesh mesh,
@@ -41,7 +41,8 @@ public:
   bool update_topology(const unsigned int step, const double time) override;
 
   void add_energies(EnergyLedger &ledger) const override;
-  Measures measure() const override;
+  BodyMeasures measure() const override;
+  std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
 
@@ -51,7 +52,9 @@ public:
     return surface_version;
   }
 
+  const FaceView *faces() const override { return this; }
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;
+  bool deform() const override { return true; }
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
 
@@ -100,7 +103,7 @@ private:
   /** Drop the active cells whose initial cell is dead from all arrays. */
   void compact();
   void visit_erosion(StateVisitor &visitor);
-  void add_erosion_measures(Measures &measures) const;
+  void add_erosion_measures(BodyMeasures &measures) const;
   /** Which owned nodes lost all their cells; null where none can. */
   const std::vector<char> *free_nodes() const;
 

@@ -6,8 +6,8 @@
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/fem/cell_kernels.h"
 #include "sabot/bodies/fem/fem_options.h"
+#include "sabot/bodies/material_points.h"
 #include "sabot/geometry/hex_mesh.h"
-#include "sabot/materials/material.h"
 
 #include <algorithm>
 #include <memory>
@@ -60,17 +60,23 @@ public:
   /** Internal energy and plastic work of cell @p e [J]. */
   double internal_energy(const std::size_t e) const
   {
-    return sum_points(point_energy, e);
+    return sum_points(points.internal_energy, e);
   }
   double plastic_work(const std::size_t e) const
   {
-    return sum_points(point_plastic_work, e);
+    return sum_points(points.plastic_work, e);
   }
   /** Means over the points of each cell, [row][size()]. */
-  std::vector<double> cell_stress() const { return cell_means(stress_data); }
-  std::vector<double> cell_states() const { return cell_means(state_data); }
+  std::vector<double> cell_stress() const { return cell_means(points.stress); }
+  std::vector<double> cell_states() const
+  {
+    return cell_means(points.state_data);
+  }
   double stress(const std::size_t component, const std::size_t e) const;
-  const std::vector<StateVariable> &states() const { return state_variables; }
+  const std::vector<StateVariable> &states() const
+  {
+    return points.variables();
+  }
   /** Mean of a scalar state variable over the points of each cell; empty when
       the material does not have it. */
   std::vector<double> cell_state(const std::string &name) const;
@@ -87,17 +93,10 @@ protected:
   /** Points per batch; what one needs stays in the first-level cache. */
   static constexpr std::size_t batch_size = 32;
   static_assert(batch_size <= max_batch_points, "materials take no more");
-  struct PointBatch
+  struct PointBatch : PointStepArrays<batch_size>
   {
-    alignas(64) double strain[6][batch_size];
-    double spin[3][batch_size];
-    double jacobian[batch_size], half_volume[batch_size];
-    double viscous_pressure[batch_size];
-    double return_factor[batch_size], plastic_work[batch_size];
     double step[batch_size]; // of cells; n_points of them apart
-    // For materials that need them
-    double mean_viscous_pressure[batch_size], stiffening[batch_size];
-    double deformation_gradient[9][batch_size];
+    double stiffening[batch_size];
   };
 
   /** Arrays of points for the cells of connectivity. */
@@ -125,23 +124,15 @@ protected:
       cell_step[cell] = std::min(cell_step[cell], step);
   }
   void reset_steps();
-  /** sigma - q 1 of a point. */
-  Mat total_stress(const std::size_t point) const;
 
   const std::string body_name;
   const FemOptions options;
   const std::shared_ptr<const Material> material;
-  const std::vector<StateVariable> state_variables;
-  const unsigned int n_points;
-  std::size_t n_states = 0, stride = 0; // rows of states, points per row
-  AlignedVector<double> stress_data, state_data; // [row][stride]
-  AlignedVector<double> viscous_pressure;        // of the last step [Pa]
-  AlignedVector<double> point_energy, point_plastic_work; // [J]
+  const unsigned int n_points; // of a cell
+  MaterialPoints points;
   AlignedVector<Mat> polar_rotation; // R, for the Green-Naghdi rate only
 
 private:
-  /** First row of a variable in state_data; n_states where there is none. */
-  std::size_t state_row(const std::string &name) const;
   /** Replace the spin increments by those of R, F = R U. */
   void polar_spin(const std::size_t begin, const std::size_t m,
                   PointBatch &batch);
@@ -159,7 +150,6 @@ private:
     return sum;
   }
   std::vector<double> cell_means(const AlignedVector<double> &rows) const;
-  std::vector<double *> batch_states;
 };
 
 inline std::size_t round_up(const std::size_t n, const std::size_t multiple)

@@ -38,7 +38,7 @@ struct RigidOptions
  * constant and the energy oscillates by O((omega dt)^2) without drift
  * (doc/theory-fem.md). Every rank knows the whole state.
  */
-class RigidBody : public Body
+class RigidBody : public Body, public FaceView
 {
 public:
   RigidBody(const std::string &name, const int id, HexMesh mesh,
@@ -66,10 +66,17 @@ public:
   }
 
   void add_energies(EnergyLedger &ledger) const override;
-  Measures measure() const override;
+  BodyMeasures measure() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
   ContactSurface contact_surface() const override;
+  const FaceView *faces() const override { return this; }
+  std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override
+  {
+    return {};
+  }
+  bool deform() const override { return false; }
+  bool moves_node_by_node() const override { return false; }
 
   std::string item_name() const override { return "cells"; }
   GlobalIndex n_items() const override { return n_global_cells; }
@@ -91,7 +98,7 @@ private:
   GlobalIndex n_global_cells = 0;
   std::vector<std::array<std::uint32_t, 8>> cells; // with an owned node
   std::vector<char> owned_cell;
-  std::vector<std::array<std::size_t, 4>> faces;
+  std::vector<std::array<std::size_t, 4>> boundary_faces;
   std::vector<GlobalIndex> face_id;
   double typical_spacing = 0.;
 

@@ -4,13 +4,13 @@
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_conduction.h"
 #include "sabot/bodies/spg/second_gradient.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/particle_cloud.h"
-#include "sabot/materials/material.h"
 
 #include <memory>
 
@@ -32,7 +32,7 @@ namespace sabot
  * Every particle gathers its own force, neighbours in global order, so results
  * do not depend on the number of ranks.
  */
-class SpgBody : public Body
+class SpgBody : public Body, public ParticleView, public FragmentView
 {
 public:
   SpgBody(const std::string &name, const int id, ParticleCloud cloud,
@@ -56,7 +56,8 @@ public:
   bool update_topology(const unsigned int step, const double time) override;
 
   void add_energies(EnergyLedger &ledger) const override;
-  Measures measure() const override;
+  BodyMeasures measure() const override;
+  std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
 
@@ -67,7 +68,10 @@ public:
   VolumePoint volume_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
-  std::vector<Fragment> fragments() const override;
+  std::size_t n_bonds() const override;
+  const ParticleView *particles() const override { return this; }
+  const FragmentView *fragments() const override { return this; }
+  std::vector<Fragment> connected_pieces() const override;
 
   std::string item_name() const override { return "particles"; }
   GlobalIndex n_items() const override { return n_global; }
@@ -90,18 +94,21 @@ public:
   }
   double stress(const std::size_t component, const std::size_t i) const
   {
-    return stress_data[component * nodal_state.n_owned + i];
+    return points.stress_row(component)[i];
   }
   void set_stress(const std::size_t component, const std::size_t i,
                   const double value)
   {
-    stress_data[component * nodal_state.n_owned + i] = value;
+    points.stress_row(component)[i] = value;
   }
   void set_state(const std::string &name, const std::size_t i,
-                 const double value);
+                 const double value)
+  {
+    points.state(name)[i] = value;
+  }
   double state(const std::string &name, const std::size_t i) const
   {
-    return state_array(name)[i];
+    return points.state(name)[i];
   }
   std::size_t n_fallbacks() const { return n_fallback; }
   std::size_t n_kernel_updates() const { return n_updates; }
@@ -184,12 +191,11 @@ private:
   void generalized_stresses(const std::size_t begin, const std::size_t end);
   template <bool stored_gradients, bool has_residuals>
   void gather_forces();
-  const double *state_array(const std::string &name) const;
 
   // spg_cracks.cc
   /** The material's update; particles that lost a direction open cracks before
       they flow. @p points: of the particles from @p begin on. */
-  void update_material(const MaterialBatch &points, const std::size_t begin);
+  void update_material(const MaterialBatch &step, const std::size_t begin);
   /** Set uncracked_strain of the batch; false where no crack opens. */
   bool open_cracks(const MaterialBatch &points, const std::size_t begin);
 
@@ -242,11 +248,9 @@ private:
   std::vector<char> weak;                // a direction is lost
   std::vector<std::uint32_t> n_failed;   // bonds, per particle
   std::vector<std::vector<GlobalIndex>> failed_pairs; // only when searching
-  std::vector<double> stress_data;                    // [6][n_owned]
-  std::vector<double> state_data;                     // [n_states][n_owned]
-  std::vector<double> viscous_pressure;               // of the last step [Pa]
-  std::vector<double> stiffening; // only of materials that stiffen
-  std::vector<double> internal_energy, bond_work, plastic_work; // [J]
+  MaterialPoints points;
+  std::vector<double> stiffening;         // only of materials that stiffen
+  std::vector<double> bond_work;          // [J]
   std::vector<double> failure_loss;       // [J], part of the first two
   AlignedVector<Vec> own_force;           // without what couplings added
   std::vector<double> update_stable_step; // [s] at the last kernel update
@@ -259,25 +263,17 @@ private:
   double calibrated_bound = 0.;     // Gershgorin's, at the last calibration [s]
   double largest_change = 0.;       // largest stretch of F or F^-1, squared
   std::size_t n_updates = 0, n_fallback = 0;
-  std::vector<StateVariable> state_variables;
-  std::size_t n_states = 0;
   std::unique_ptr<SecondGradient> second_gradient;
   std::unique_ptr<ParticleConduction> heat; // only where asked for
   double last_conduction = 0.;              // [s]
 
   /** Work arrays of one batch. */
-  struct Batch
+  struct Batch : PointStepArrays<batch_size>
   {
-    double strain[6][batch_size], spin[3][batch_size];
-    double jacobian[batch_size], half_volume[batch_size];
-    double viscous_pressure[batch_size];
-    double mean_viscous_pressure[batch_size];
-    double deformation_gradient[9][batch_size];
     double extra_square[batch_size];
     // Sums over bonds of phi times: trial square, old with trial, old square
     double trial_square[batch_size], old_trial[batch_size],
         old_square[batch_size];
-    double return_factor[batch_size], plastic_work[batch_size];
     // Of batches with particles that lost a direction
     double old_stress[6][batch_size], uncracked_strain[6][batch_size];
     bool is_cracked[batch_size];
@@ -287,8 +283,7 @@ private:
     Mat nominal[batch_size];              // F^-T
   };
   Batch batch;
-  std::vector<double *> batch_states; // one pointer per state array
-  std::vector<double> old_states;     // of a batch with cracks
+  std::vector<double> old_states; // of a batch with cracks
 };
 } // namespace sabot
 

@@ -1,7 +1,8 @@
-#include "sabot/materials/equation_of_state.h"
+// Mie-Grueneisen pressure from shock data.
+#include "sabot/materials/mie_gruneisen.h"
 
-#include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
+#include "sabot/base/output_fields.h"
+#include "sabot/base/registry.h"
 #include "sabot/materials/elastic_base.h"
 
 #include <algorithm>
@@ -10,17 +11,6 @@
 
 namespace sabot
 {
-void BulkModulus::finish(const MaterialBatch &b, const Start &,
-                         const double) const
-{
-  for (std::size_t k = 0; k < b.n; ++k)
-  {
-    const double mean = K * std::log(b.jacobian[k]);
-    for (int c = 0; c < 3; ++c)
-      b.stress[c][k] += mean;
-  }
-}
-
 void MieGruneisen::begin(const MaterialBatch &b, Start &start) const
 {
   const double *const *const e = b.strain_increment;
@@ -92,27 +82,8 @@ void MieGruneisen::finish(const MaterialBatch &b, const Start &start,
 
 namespace
 {
-const char *const bulk_modulus_name = "Bulk modulus";
-const char *const mie_gruneisen_name = "Mie-Gruneisen";
-} // namespace
-
-std::vector<std::string> EquationOfState::names()
+void declare(Parameters &prm)
 {
-  return {bulk_modulus_name, mie_gruneisen_name};
-}
-
-void EquationOfState::declare_parameters(Parameters &prm,
-                                         const std::string &selected)
-{
-  prm.declare_entry(
-      "Equation of state", bulk_modulus_name,
-      one_of(std::string(bulk_modulus_name) + "|" + mie_gruneisen_name),
-      "Bulk modulus: pressure -K ln J with K of the elastic constants. "
-      "Mie-Gruneisen: from shock data; Young's modulus and Poisson's ratio "
-      "then give the shear modulus only.");
-  if (selected == bulk_modulus_name)
-    return;
-  prm.enter_subsection(mie_gruneisen_name);
   prm.declare_entry("Sound speed", "0", quantity(Dimension::velocity, 0., 2e4),
                     "c0 of Us = c0 + s up.");
   prm.declare_entry("Shock slope", "1.5", quantity(Dimension::none, 0., 10.),
@@ -123,26 +94,21 @@ void EquationOfState::declare_parameters(Parameters &prm,
                     quantity(Dimension::none, -10., 10.),
                     "a: Gamma times density is (Gamma0 + a (rho/rho0 - 1)) "
                     "rho0.");
-  prm.leave_subsection();
 }
 
-std::shared_ptr<const EquationOfState>
-EquationOfState::make(Parameters &prm, const std::string &path,
-                      const ElasticConstants &elastic,
-                      std::vector<std::string> &warnings)
+std::shared_ptr<const EquationOfState> make(const Parameters &prm,
+                                            const std::string &path,
+                                            const ElasticConstants &elastic,
+                                            std::vector<std::string> &warnings)
 {
-  if (prm.get("Equation of state") == bulk_modulus_name)
-    return std::make_shared<BulkModulus>(elastic.bulk_modulus());
-  prm.enter_subsection(mie_gruneisen_name);
   MieGruneisenParameters p;
   p.density = elastic.density;
   p.sound_speed = get_quantity(prm, "Sound speed");
   p.shock_slope = get_quantity(prm, "Shock slope");
   p.gruneisen = get_quantity(prm, "Gruneisen coefficient");
   p.volume_correction = get_quantity(prm, "Volume correction");
-  prm.leave_subsection();
   if (p.sound_speed < 100.)
-    throw InputError(path + "/" + mie_gruneisen_name + "/Sound speed",
+    throw InputError(path + "/Sound speed",
                      "must be set to the c0 of the shock data, at least "
                      "100 m/s, for example 5386 m/s");
   const auto eos = std::make_shared<MieGruneisen>(p);
@@ -159,4 +125,17 @@ EquationOfState::make(Parameters &prm, const std::string &path,
   }
   return eos;
 }
+
+const DescribeField
+    described({"specific internal energy", "J/kg", 1,
+               "cells, particles with this equation of state",
+               "Of Mie-Gruneisen, over the initial state, deviatoric and "
+               "viscous work included."});
+
+const Registry<EquationOfState>::Add registered(
+    {"Mie-Gruneisen",
+     "from shock data; Young's modulus and Poisson's ratio then give the shear "
+     "modulus only.",
+     declare, make});
+} // namespace
 } // namespace sabot

@@ -1,0 +1,30 @@
+#ifndef sabot_base_text_h
+#define sabot_base_text_h
+
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** @p text without blanks, tabs and line ends at both sides. */
+std::string trim(const std::string &text);
+
+/** The parts of @p text between characters @p separator, trimmed; some may be
+    empty, but an empty text has none, and neither has what follows the last
+    separator where nothing does: "a;;b;" has three. */
+std::vector<std::string> split(const std::string &text, const char separator);
+
+/** The parts of @p texts with @p between in between. */
+std::string join(const std::vector<std::string> &texts,
+                 const std::string &between);
+
+/** @p value as printf's @p pattern ("%.3g mm") has it: one conversion of a
+    double, at most 63 characters in all. */
+std::string formatted(const char *pattern, const double value);
+
+/** The lines of a file that are not empty; none of a file that cannot be
+    read. */
+std::vector<std::string> lines_of(const std::string &file);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,179 @@
+#ifndef sabot_bodies_material_points_h
+#define sabot_bodies_material_points_h
+
+#include "sabot/base/measures.h"
+#include "sabot/base/state_visitor.h"
+#include "sabot/base/types.h"
+#include "sabot/bodies/flow_stress.h"
+#include "sabot/kernels/vec.h"
+#include "sabot/materials/material.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * What a step does to the @p n consecutive points from @p begin on: views of
+ * what their body has found from the motion, [n] each. Tensors in the order of
+ * n_symmetric.
+ */
+struct PointStep
+{
+  std::size_t begin = 0, n = 0;
+  double dt = 0.; // [s] > 0
+  /** Strain increment of the middle configuration, tensor components; turned
+      to the end of the step by rotate(). */
+  double *strain[n_symmetric] = {};
+  const double *spin[3] = {};               // increments w_xy, w_yz, w_xz
+  const double *jacobian = nullptr;         // det F, total, new
+  const double *half_volume = nullptr;      // half of the mean volume [m^3]
+  const double *viscous_pressure = nullptr; // artificial, new [Pa]
+  /** Stress beside the stress, and what the return does to both; see
+      MaterialBatch. */
+  const double *extra_square = nullptr;
+  double *return_factor = nullptr;
+  double *plastic_work = nullptr; // [J/m^3]
+
+  // What only some laws need, as in MaterialBatch.
+  double *mean_viscous_pressure = nullptr; // room for it
+  const double *deformation_gradient[9] = {};
+  double *stiffening = nullptr;
+};
+
+/** Room for a PointStep of at most @p capacity points. */
+template <std::size_t capacity>
+struct PointStepArrays
+{
+  alignas(64) double strain[n_symmetric][capacity];
+  double spin[3][capacity];
+  double jacobian[capacity], half_volume[capacity];
+  double viscous_pressure[capacity];
+  double return_factor[capacity], plastic_work[capacity];
+  double mean_viscous_pressure[capacity];
+  double deformation_gradient[9][capacity];
+
+  /** Views for @p n points from @p begin on; extra_square and stiffening are
+      left to the body. */
+  PointStep views(const std::size_t begin, const std::size_t n, const double dt)
+  {
+    PointStep step;
+    step.begin = begin;
+    step.n = n;
+    step.dt = dt;
+    for (int c = 0; c < n_symmetric; ++c)
+      step.strain[c] = strain[c];
+    for (int c = 0; c < 3; ++c)
+      step.spin[c] = spin[c];
+    for (int c = 0; c < 9; ++c)
+      step.deformation_gradient[c] = deformation_gradient[c];
+    step.jacobian = jacobian;
+    step.half_volume = half_volume;
+    step.viscous_pressure = viscous_pressure;
+    step.return_factor = return_factor;
+    step.plastic_work = plastic_work;
+    step.mean_viscous_pressure = mean_viscous_pressure;
+    return step;
+  }
+};
+
+/**
+ * The points at which a body knows its material, quadrature points and
+ * particles alike: Cauchy stress, state of the law, viscous pressure and
+ * energies, as structure of arrays [row][stride()] of which the first size()
+ * points count; rows may be padded to whole vectors.
+ *
+ * A step of a batch is rotate(), the law's update() and finish():
+ *
+ *   sigma <- R sigma R^T,  W += V/2 sigma : d eps     (rotate)
+ *   sigma <- law(sigma, d eps)                        (by the body)
+ *   W += V/2 sigma : d eps - V/2 (q_old + q_new) tr d eps  (finish)
+ *
+ * with R of the increment of spin (Hughes & Winget 1980) and V the mean volume
+ * of the step, so that W is the trapezoidal rule. No function is collective.
+ */
+class MaterialPoints
+{
+public:
+  explicit MaterialPoints(std::shared_ptr<const Material> material);
+
+  /** @p n points at rest, rows padded to @p stride >= n. */
+  void allocate(const std::size_t n, const std::size_t stride);
+  /** Keep the groups of @p per_group consecutive points with the ascending
+      numbers @p kept; the new rows, of length @p stride, are filled up with
+      copies of the last point. */
+  void keep(const std::vector<std::size_t> &kept, const std::size_t per_group,
+            const std::size_t stride);
+
+  /** Rotate stress and tensors of state to the end of the step, add the work of
+      the old stress. @return views for the law's update(). */
+  MaterialBatch rotate(const PointStep &step);
+  /** After the law's update(): work of the new stress and of the viscous
+      pressure [J], plastic work [J]. */
+  void finish(const PointStep &step);
+
+  const Material &law() const { return *material; }
+  const std::vector<StateVariable> &variables() const
+  {
+    return state_variables;
+  }
+  std::size_t size() const { return n_points; }
+  std::size_t stride() const { return row_length; }
+  std::size_t n_rows() const { return n_state_rows; }
+
+  /** Component @p c of the stress of all points [Pa]. */
+  double *stress_row(const int c) { return &stress[c * row_length]; }
+  const double *stress_row(const int c) const
+  {
+    return &stress[c * row_length];
+  }
+  /** sigma - q 1 of a point, q its viscous pressure unless given [Pa]. */
+  Mat total_stress(const std::size_t point, const double q) const
+  {
+    const double *const s = &stress[point];
+    const std::size_t n = row_length;
+    return {{vec(s[0] - q, s[3 * n], s[5 * n]),
+             vec(s[3 * n], s[n] - q, s[4 * n]),
+             vec(s[5 * n], s[4 * n], s[2 * n] - q)}};
+  }
+  Mat total_stress(const std::size_t point) const
+  {
+    return total_stress(point, viscous_pressure[point]);
+  }
+  const double *state_row(const std::size_t row) const
+  {
+    return &state_data[row * row_length];
+  }
+  /** Values of a state variable, the first component of a tensor; null where
+      the law has none of this name. */
+  const double *state(const std::string &name) const;
+  double *state(const std::string &name);
+  /** Whether the law has it; the same on ranks without points. */
+  bool has_state(const std::string &name) const;
+
+  /** Append a point of volume ratio @p jacobian to those that a probe asks for
+      their flow stress. */
+  void add_to(FlowStressProbe &probe, const std::size_t point,
+              const double jacobian) const;
+  /** Stress, von Mises stress, pressure and scalar states as output fields. */
+  void add_fields(std::vector<OutputField> &fields,
+                  const std::vector<std::size_t> &points) const;
+  void visit_state(StateVisitor &visitor);
+
+  AlignedVector<double> stress;           // [6][stride()] Cauchy [Pa]
+  AlignedVector<double> state_data;       // [n_rows()][stride()]
+  AlignedVector<double> viscous_pressure; // of the last step [Pa]
+  AlignedVector<double> internal_energy;  // work of the stresses [J]
+  AlignedVector<double> plastic_work;     // part of it [J]
+
+private:
+  const std::shared_ptr<const Material> material;
+  const std::vector<StateVariable> state_variables;
+  const std::size_t n_state_rows;
+  std::size_t n_points = 0, row_length = 0;
+  std::vector<double *> rows; // of a batch, while it is updated
+};
+} // namespace sabot
+
+#endif

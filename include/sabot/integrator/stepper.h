@@ -1,0 +1,73 @@
+#ifndef sabot_integrator_stepper_h
+#define sabot_integrator_stepper_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/integrator/central_difference.h"
+
+#include <limits>
+
+namespace sabot
+{
+/** What bounds a step besides the stable step of bodies and couplings. */
+struct StepLimits
+{
+  double factor = 0.9; // of the least stable step
+  double largest = std::numeric_limits<double>::max();  // [s]
+  double end_time = std::numeric_limits<double>::max(); // [s], met exactly
+  /** Step over the last one at most: contact penalties follow the step, so it
+      may grow slowly only. */
+  double growth = 1.05;
+};
+
+/**
+ * The life of a time step, the same for runs, plans and verification problems:
+ *
+ *   const StepProposal proposal = stepper.propose(false);
+ *   stepper.advance(stepper.choose(proposal));
+ *   stepper.update();
+ *
+ * All but choose() are collective.
+ */
+class Stepper
+{
+public:
+  Stepper(std::vector<std::unique_ptr<Body>> &bodies,
+          std::vector<std::unique_ptr<Coupling>> &couplings,
+          const StepLimits &limits, Timers &timers, MPI_Comm communicator)
+      : limits(limits), integrator(bodies, couplings, timers, communicator)
+  {
+  }
+
+  /** Initial velocities and forces. */
+  void initialize() { integrator.initialize(); }
+  /** The least stable step and who limits it. @p interrupted: whether this
+      rank was asked to stop. */
+  StepProposal propose(const bool interrupted) const
+  {
+    return integrator.propose(interrupted);
+  }
+  /** The step to make now [s]. */
+  double choose(const StepProposal &proposal) const;
+  /** Advance by @p dt; throws PhysicsError on all ranks when a body went wrong
+      on any. */
+  void advance(const double dt);
+  /** Kernel updates, failure, erosion: what is due between steps. */
+  void update() { integrator.update_topology(n_steps); }
+  /** Time, number and size of steps. */
+  void visit_state(StateVisitor &visitor);
+
+  double time() const { return integrator.time; } // [s]
+  unsigned int steps() const { return n_steps; }  // made so far
+  double last_step() const { return dt; }         // [s], 0 at the start
+  bool is_finished() const { return time() >= limits.end_time * (1. - 1e-12); }
+
+  const StepLimits limits;
+
+private:
+  CentralDifference integrator;
+  unsigned int n_steps = 0;
+  double dt = 0.;
+};
+} // namespace sabot
+
+#endif

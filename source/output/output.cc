@@ -1,0 +1,39 @@
+// Entries of all outputs, and when each falls due.
+#include "sabot/output/output.h"
+
+#include "sabot/base/registry.h"
+#include "sabot/base/state_visitor.h"
+
+namespace sabot
+{
+void Output::declare_parameters(Parameters &prm, const std::string &type)
+{
+  Registry<Output>::declare_choice(prm, "Type", "VTU", "");
+  prm.declare_entry("Interval", "5 us", quantity(Dimension::time, 1e-15, 1e3),
+                    "Time between two writes; the end is always written.");
+  Registry<Output>::declare_entries(prm, type);
+}
+
+std::unique_ptr<Output> Output::make(const Parameters &prm,
+                                     const std::string &path)
+{
+  std::unique_ptr<Output> output =
+      Registry<Output>::get(path + "/Type", prm.get("Type")).make(prm, path);
+  output->interval = get_quantity(prm, "Interval");
+  return output;
+}
+
+void Output::write_when_due(const OutputMoment &moment, const double slack,
+                            RunFiles &files)
+{
+  if (moment.is_last || is_due(moment.time, slack))
+    write(moment, files);
+  while (is_due(moment.time, slack))
+    next += interval;
+}
+
+void Output::visit_state(StateVisitor &visitor, const std::string &name)
+{
+  visitor.visit_value(name, next);
+}
+} // namespace sabot
