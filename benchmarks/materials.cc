@@ -1,7 +1,8 @@
 // Cost of one update of each law per point, plastic flow throughout:
-// `ninja benchmarks && build/release/benchmarks`.
+// build/release/benchmark_materials
 #include "sabot/kernels/stress_update.h"
 #include "sabot/materials/laws.h"
+#include "verification/metals.h"
 
 #include <benchmark/benchmark.h>
 
@@ -10,7 +11,6 @@
 namespace
 {
 using namespace sabot;
-const ElasticConstants aluminium{2700., 68.9e9, 0.33};
 using Make = std::function<std::unique_ptr<Material>(const ElasticBase::Eos &)>;
 
 void run(benchmark::State &bench, const Make &make, const bool gruneisen)
@@ -18,7 +18,7 @@ void run(benchmark::State &bench, const Make &make, const bool gruneisen)
   ElasticBase::Eos eos;
   if (gruneisen)
     eos = std::make_shared<MieGruneisen>(
-        MieGruneisenParameters{2700., 5386., 1.339, 1.99, 0.});
+        mie_gruneisen_parameters("al6061-t6-eos"));
   const auto law = make(eos);
   constexpr std::size_t n = max_batch_points;
   double stress[6][n] = {}, strain[6][n] = {}, jacobian[n], extra[n] = {},
@@ -76,21 +76,13 @@ template <typename Law>
 Make plain()
 {
   return [](const ElasticBase::Eos &eos)
-  { return std::make_unique<Law>(aluminium, eos); };
+  { return std::make_unique<Law>(aluminum(), eos); };
 }
 
 JohnsonCookParameters johnson_cook(const bool damage)
 {
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.melt_temperature = 925.;
+  JohnsonCookParameters p = johnson_cook_parameters("al6061-t6");
   p.has_damage = damage;
-  const double D[5] = {-0.77, 1.45, -0.47, 0., 1.6};
-  std::copy(D, D + 5, p.D);
   return p;
 }
 
@@ -109,14 +101,16 @@ ZerilliArmstrongParameters zerilli()
 
 SteinbergGuinanParameters steinberg()
 {
+  const auto entry = [](const std::string &e)
+  { return metal_entry("al6061-t6-steinberg", "Steinberg-Guinan/" + e); };
   SteinbergGuinanParameters p;
-  p.yield_stress = 0.29e9;
-  p.largest_yield_stress = 0.68e9;
-  p.beta = 125.;
-  p.n = 0.1;
-  p.pressure_coefficient = 65.2e-12;
-  p.temperature_coefficient = 6.16e-4;
-  p.melt_temperature = 1220.;
+  p.yield_stress = entry("Initial yield stress");
+  p.largest_yield_stress = entry("Largest yield stress");
+  p.beta = entry("Hardening coefficient");
+  p.n = entry("Hardening exponent");
+  p.pressure_coefficient = entry("Pressure coefficient");
+  p.temperature_coefficient = entry("Temperature coefficient");
+  p.melt_temperature = entry("Melt temperature");
   return p;
 }
 
@@ -124,28 +118,29 @@ template <typename Law, typename Parameters>
 Make with(const Parameters &p)
 {
   return [p](const ElasticBase::Eos &eos)
-  { return std::make_unique<Law>(aluminium, p, eos); };
+  { return std::make_unique<Law>(aluminum(), p, eos); };
 }
 template <typename Law, typename Flow>
 Make heated(const Flow &flow)
 {
   return [flow](const ElasticBase::Eos &eos)
-  { return std::make_unique<Law>(aluminium, flow, ThermalParameters(), eos); };
+  { return std::make_unique<Law>(aluminum(), flow, ThermalParameters(), eos); };
 }
 } // namespace
 
 int main(int argc, char **argv)
 {
+  const double Y = aluminum_yield_stress();
   HardeningParameters table;
   table.table_strain = {0., 0.01, 0.1, 10.};
-  table.table_stress = {324e6, 350e6, 400e6, 900e6};
+  table.table_stress = {Y, 350e6, 400e6, 900e6};
   const std::vector<std::pair<std::string, Make>> laws = {
       {"elastic", plain<Elastic>()},
       {"neo-hookean", plain<NeoHookean>()},
       {"hardening isotropic",
-       with<HardeningPlasticity>(HardeningParameters{324e6, 150e6, 1.})},
+       with<HardeningPlasticity>(HardeningParameters{Y, 150e6, 1.})},
       {"hardening kinematic",
-       with<HardeningPlasticity>(HardeningParameters{324e6, 150e6, 0.})},
+       with<HardeningPlasticity>(HardeningParameters{Y, 150e6, 0.})},
       {"hardening table", with<HardeningPlasticity>(table)},
       {"johnson-cook", with<JohnsonCook>(johnson_cook(false))},
       {"johnson-cook damage", with<JohnsonCook>(johnson_cook(true))},

@@ -1,5 +1,6 @@
 // CPU time of the force loop of an SPG block, per particle-step.
 // spg_step --benchmark_filter=... ; see doc/performance.md
+#include "sabot/base/choice.h"
 #include "verification/world.h"
 
 #include <deal.II/base/mpi.h>
@@ -10,23 +11,6 @@ namespace
 {
 using namespace sabot;
 
-std::shared_ptr<Material> johnson_cook()
-{
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.reference_strain_rate = 1.;
-  p.room_temperature = p.initial_temperature = 294.;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  p.taylor_quinney = 0.9;
-  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33},
-                                       p);
-}
-
 void step(benchmark::State &state, const SpgOptions &options,
           const double speed, const bool plastic)
 {
@@ -35,7 +19,7 @@ void step(benchmark::State &state, const SpgOptions &options,
   world.bodies.push_back(std::make_unique<SpgBody>(
       "block", 0,
       perturbed_cloud({{(n - 1) * h, (n - 1) * h, (n - 1) * h}}, h, 0.1),
-      plastic ? johnson_cook() : elastic(), options));
+      plastic ? metal("al6061-t6") : elastic(), options));
   world.distribute();
   auto &body = *world.bodies[0];
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
@@ -56,16 +40,16 @@ void step(benchmark::State &state, const SpgOptions &options,
   state.counters["items"] = body.n_items();
 }
 
-SpgOptions with(const SpgOptions::Stabilization s)
+SpgOptions with(const std::string &s)
 {
   SpgOptions o;
-  o.stabilization = s;
+  o.stabilization = choose<Stabilization>(s);
   return o;
 }
 
 void elastic_unstabilised(benchmark::State &state)
 {
-  step(state, with(SpgOptions::Stabilization::none), 10., false);
+  step(state, with("none"), 10., false);
 }
 void elastic_bond_residual(benchmark::State &state)
 {
@@ -73,7 +57,7 @@ void elastic_bond_residual(benchmark::State &state)
 }
 void johnson_cook_unstabilised(benchmark::State &state)
 {
-  step(state, with(SpgOptions::Stabilization::none), 300., true);
+  step(state, with("none"), 300., true);
 }
 void johnson_cook_bond_residual(benchmark::State &state)
 {
@@ -89,7 +73,7 @@ void convex_bond_residual(benchmark::State &state)
 }
 void convex_second_gradient(benchmark::State &state)
 {
-  SpgOptions o = with(SpgOptions::Stabilization::second_gradient);
+  SpgOptions o = with("second gradient");
   o.approximation = SpgOptions::Approximation::convex_exponential;
   o.kernel_shape = SpgOptions::KernelShape::tensor;
   o.normalized_support = 1.5;

@@ -7,16 +7,19 @@
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 #include "sabot/study/pictures.h"
+#include "sabot/study/process_pool.h"
 #include "sabot/study/study.h"
 #include "sabot/study/study_file.h"
-#include "verification/problem.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 
@@ -28,7 +31,7 @@ struct Arguments
 {
   std::string scene, folder = "results", format = "markdown";
   std::vector<std::string> overrides;
-  std::vector<std::string> problems;
+  std::vector<std::string> words; // for sabot-verify
   std::string json_file;
   bool quiet = false, list = false, is_about_studies = false;
   StudyArguments study;
@@ -165,30 +168,30 @@ ExitCode describe_parameters(const Arguments &arguments)
   return ExitCode::done;
 }
 
-ExitCode write_reference(const Arguments &arguments)
+/** Become sabot-verify, a program of its own beside this one: what only
+    compares with exact answers is not part of what users run. */
+ExitCode start_verification(std::vector<std::string> words)
 {
-  if (!is_first_rank())
-    return ExitCode::done;
-  make_folder(arguments.folder);
-  std::vector<ReferencePage> pages = reference_pages();
-  pages.push_back({"problems.md", problems_page()});
-  for (const ReferencePage &page : pages)
-    write_text(arguments.folder + "/" + page.file, page.text);
-  return ExitCode::done;
+  const std::string program =
+      std::filesystem::path(own_program()).parent_path() / "sabot-verify";
+  if (!std::filesystem::exists(program))
+    throw InputError("", "\"" + program +
+                             "\" is missing; scripts/build.sh builds it");
+  words.insert(words.begin(), program);
+  std::vector<char *> pointers;
+  for (std::string &word : words)
+    pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv(program.c_str(), pointers.data());
+  throw IOError("cannot start \"" + program + "\"");
 }
 
-ExitCode run_verification(const Arguments &arguments)
+ExitCode write_reference(const Arguments &arguments)
 {
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    throw InputError("", "`sabot verify` runs on one rank");
-  if (arguments.list)
-  {
-    list_problems();
-    return ExitCode::done;
-  }
-  return verify(arguments.problems, arguments.json_file)
-             ? ExitCode::done
-             : ExitCode::physics_failed;
+  make_folder(arguments.folder);
+  for (const ReferencePage &page : reference_pages())
+    write_text(arguments.folder + "/" + page.file, page.text);
+  return start_verification({"--page", arguments.folder + "/problems.md"});
 }
 
 /** Run a command; what it throws becomes a message and an exit code. */
@@ -347,19 +350,23 @@ void add_manuals(CLI::App &app, Arguments &arguments, Action &action)
                    "fields, energies, exit codes");
   reference.add_option("folder", arguments.folder, "Folder for the pages")
       ->required();
-  reference.callback([&]() { action = {write_reference}; });
+  reference.callback([&]() { action = {write_reference, false}; });
 }
 
 void add_verify(CLI::App &app, Arguments &arguments, Action &action)
 {
   CLI::App &command = *app.add_subcommand(
       "verify", "Compare verification problems with exact answers");
-  command.add_option("name", arguments.problems,
-                     "Problems or labels; none: all quick ones");
-  command.add_flag("--list", arguments.list, "Name the problems");
-  command.add_option("--json", arguments.json_file,
-                     "Write the checks to this file");
-  command.callback([&]() { action = {run_verification}; });
+  command.set_help_flag();
+  command.prefix_command();
+  command.callback(
+      [&]()
+      {
+        arguments.words = command.remaining();
+        action = {[](const Arguments &all)
+                  { return start_verification(all.words); },
+                  false};
+      });
 }
 } // namespace
 

@@ -58,22 +58,6 @@ inline bool is_finite(const World &world)
   }
   return true;
 }
-
-/** 6061-T6 of prm/materials/al6061-t6.prm. */
-inline std::shared_ptr<JohnsonCook>
-aluminium_6061(const ElasticBase::Eos &eos = {})
-{
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33}, p,
-                                       eos);
-}
 } // namespace sabot
 
 #endif

@@ -1,4 +1,5 @@
 #include "sabot/couplings/contact.h"
+#include "sabot/materials/laws.h"
 #include "verification/driven.h"
 #include "verification/problem.h"
 
@@ -6,11 +7,10 @@ namespace sabot
 {
 namespace
 {
-const double rho = 2700., E = 68.9e9;
-
 /** A smooth push on the end of a slender free bar travels at sqrt(E/rho). */
 std::vector<Check> bar_wave()
 {
+  const double rho = aluminum().density, E = aluminum().young_modulus;
   const double h = 1e-3, c = std::sqrt(E / rho);
   const int n = 200;
   const double rise = 20e-6, speed = 1.;
@@ -48,6 +48,7 @@ std::vector<Check> bar_wave()
 /** Two equal bars, nu = 0 so that one dimension is exact, meet at v. */
 std::vector<Check> saint_venant()
 {
+  const double rho = aluminum().density, E = aluminum().young_modulus;
   const double h = 1e-3, v = 10., c = std::sqrt(E / rho);
   const int n = 100;
   const double length = n * h;
@@ -108,12 +109,15 @@ std::vector<Check> saint_venant()
     Strains are of 1 %; nu = 0.3 with free sides, slender. */
 std::vector<Check> bilinear()
 {
+  const double rho = aluminum().density, E = aluminum().young_modulus;
   const double h = 0.5e-3, v = 20., Y = 100e6, Et = E / 9.;
   const double H = E * Et / (E - Et), c = std::sqrt(E / rho), c_p = c / 3.;
   const int n = 240;
   const double length = n * h;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{rho, E, 0.3}, HardeningParameters{Y, H, 1.});
+  ElasticConstants constants = aluminum();
+  constants.poisson_ratio = 0.3;
+  const auto bilinear = std::make_shared<HardeningPlasticity>(
+      constants, HardeningParameters{Y, H, 1.});
   World world;
   for (const int side : {-1, 1})
   {
@@ -121,7 +125,7 @@ std::vector<Check> bilinear()
     options.initial_velocity = {{-side * v, 0., 0.}};
     world.bodies.push_back(std::make_unique<DrivenFemBody>(
         side < 0 ? "striker" : "bar", world.bodies.size(),
-        make_bar(side < 0 ? -length : 0., n, h), metal, options,
+        make_bar(side < 0 ? -length : 0., n, h), bilinear, options,
         [](NodalState &, const double) {}));
   }
   world.couplings.push_back(std::make_unique<Contact>(

@@ -7,7 +7,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double rho = 2700., E = 68.9e9;
 
 /** What the two bodies that meet are made of; cells meet cells or particles. */
 enum class Pairing
@@ -72,7 +71,9 @@ void add_contact(World &world, const Pairing pairing)
 /** A bar strikes an equal one; nu = 0 so that one dimension is exact. */
 std::vector<Check> impact_of_bars(const Pairing pairing)
 {
-  const double length = 100e-3, w = 2e-3, v = 10., c = std::sqrt(E / rho);
+  const double rho = aluminum().density,
+               c = std::sqrt(aluminum().young_modulus / rho);
+  const double length = 100e-3, w = 2e-3, v = 10.;
   World world;
   add_box(world, pairing == Pairing::particles, {{length, w, w}},
           {{-0.5 * length, 0, 0}}, {{v, 0, 0}}, 0.);

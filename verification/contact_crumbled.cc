@@ -18,10 +18,8 @@ std::unique_ptr<SpgBody> block(const std::string &name, const int id,
   SpgOptions options;
   options.initial_velocity = {{0., 0., velocity}};
   if (crumbles)
-    options.critical_effective_plastic_strain = 0.1;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 1.});
+    options.set_critical_plastic_strain(0.1);
+  const auto metal = hardening_aluminum();
   return std::make_unique<SpgBody>(
       name, id, make_box_cloud(centre, size, spacing), metal, options);
 }

@@ -2,6 +2,7 @@
 #include "sabot/couplings/contact.h"
 #include "sabot/geometry/round_bodies.h"
 #include "sabot/materials/johnson_cook.h"
+#include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 
@@ -12,7 +13,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double rho = 2700., E = 68.9e9;
 
 HexMesh brick(const std::array<double, 3> &size,
               const std::array<double, 3> &centre, const double h)
@@ -93,7 +93,7 @@ private:
 class Soft : public Elastic
 {
 public:
-  Soft() : Elastic(ElasticConstants{rho, E, 0.33}) {}
+  Soft() : Elastic(aluminum()) {}
   std::optional<double> initial_yield_stress() const override
   {
     return std::sqrt(3.) * 1e6;
@@ -110,7 +110,7 @@ struct Slide
     may be given a past. */
 Slide slide(const double weight, const double v, const ContactOptions &options,
             const double end,
-            const std::shared_ptr<Material> &material = elastic(),
+            const std::shared_ptr<const Material> &material = elastic(),
             const std::function<void(FemBody &)> &prepare = {})
 {
   World world;
@@ -183,7 +183,7 @@ std::vector<Check> sliding()
   ContactOptions limited;
   limited.friction = 0.5;
   limited.shear_limit = 1e6;
-  const double lost = 1e6 / (rho * 2e-3) * 10e-6;
+  const double lost = 1e6 / (aluminum().density * 2e-3) * 10e-6;
   checks.push_back({"loss of speed at the shear strength", lost,
                     v - slide(g, v, limited, 10e-6).velocity, 0.05 * lost,
                     "m/s", "tau t/(rho height)"});
@@ -202,11 +202,12 @@ std::vector<Check> sliding()
 std::vector<Check> sliding_on_worked_metal()
 {
   const double g = 5e5, v = 10., tau = 1e6, end = 2e-6;
-  const double Y = std::sqrt(3.) * tau, lost = tau / (rho * 2e-3) * end;
+  const double Y = std::sqrt(3.) * tau,
+               lost = tau / (aluminum().density * 2e-3) * end;
   ContactOptions options;
   options.friction = 8.; // ten times the shear strength
   options.limit_by_yield = true;
-  const ElasticConstants constants{rho, E, 0.33};
+  const ElasticConstants &constants = aluminum();
   HardeningParameters hardening;
   hardening.table_strain = {0., 1., 2.};
   hardening.table_stress = {0.25 * Y, 0.25 * Y, Y};
@@ -228,7 +229,7 @@ std::vector<Check> sliding_on_worked_metal()
       plate.shift_state("effective plastic strain", change);
     };
   };
-  const auto loss = [&](const std::shared_ptr<Material> &material,
+  const auto loss = [&](const std::shared_ptr<const Material> &material,
                         const std::function<void(FemBody &)> &prepare)
   { return v - slide(g, v, options, end, material, prepare).velocity; };
   std::vector<Check> checks;
@@ -263,8 +264,8 @@ std::vector<Check> sliding_on_worked_metal()
 std::vector<Check> hertz()
 {
   const double R = 10e-3, v = 40., nu = 0.33;
-  const double modulus = E / (2. * (1. - nu * nu)),
-               mass = 0.5 * rho * 4. / 3. * M_PI * R * R * R;
+  const double modulus = aluminum().young_modulus / (2. * (1. - nu * nu)),
+               mass = 0.5 * aluminum().density * 4. / 3. * M_PI * R * R * R;
   const double approach =
       std::pow(15. * mass * v * v / (16. * modulus * std::sqrt(0.5 * R)), 0.4);
   const double duration = 2.943 * approach / v;

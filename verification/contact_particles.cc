@@ -1,4 +1,5 @@
 #include "sabot/couplings/particle_contact.h"
+#include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 
@@ -87,8 +88,8 @@ std::vector<Check> worked_metal()
   HardeningParameters hardening;
   hardening.table_strain = {0., 1., 2.};
   hardening.table_stress = {0.25 * Y, 0.25 * Y, Y};
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33}, hardening);
+  const auto metal =
+      std::make_shared<HardeningPlasticity>(aluminum(), hardening);
   const auto loss = [&](const ContactOptions &options, const double strain)
   {
     World world;

@@ -1,5 +1,6 @@
 #include "sabot/couplings/tie.h"
 #include "sabot/kernels/stress_update.h"
+#include "sabot/materials/laws.h"
 #include "verification/balance.h"
 #include "verification/driven.h"
 #include "verification/problem.h"
@@ -31,18 +32,10 @@ void shear_hot(std::vector<Check> &checks, const std::string &who,
                const double temperature, const double rate, const double gamma,
                const Add &add)
 {
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  p.initial_temperature = temperature;
+  const JohnsonCookParameters p = johnson_cook_parameters("al6061-t6");
   World world;
-  add(world,
-      std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33}, p));
+  add(world, metal("al6061-t6",
+                   {change("Johnson-Cook/Initial temperature", temperature)}));
   world.distribute();
   Body &body = *world.bodies[0];
   NodalState &n = body.nodes();
@@ -132,9 +125,11 @@ std::vector<Check> melt()
     rigid mass. */
 void stiff_and_soft(std::vector<Check> &checks, const bool soft_particles)
 {
-  const double soft = 68.9e3, stiff = 68.9e9, v = 0.05;
-  const auto material = [&](const double E) {
-    return std::make_shared<Elastic>(ElasticConstants{2700., E, 0.});
+  const double stiff = aluminum().young_modulus, soft = 1e-6 * stiff, v = 0.05;
+  const auto material = [&](const double E)
+  {
+    return std::make_shared<Elastic>(
+        ElasticConstants{aluminum().density, E, 0.});
   };
   World world;
   FemOptions fem = inviscid_cells();
@@ -171,7 +166,7 @@ void stiff_and_soft(std::vector<Check> &checks, const bool soft_particles)
   EnergyWatch watch(world);
   const auto before = world.momenta();
   // Until the wave in the soft part is 12 mm from the tie.
-  const double c = std::sqrt(soft / 2700.);
+  const double c = std::sqrt(soft / aluminum().density);
   while (world.integrator.time < 12e-3 / c)
   {
     world.advance(0.9);
@@ -207,7 +202,8 @@ std::vector<Check> stiffness_ratio()
 /** Cells a hundred times longer than wide: a wave along them and a turn. */
 std::vector<Check> aspect_ratio()
 {
-  const double thin = 10e-6, length = 40e-3, c = std::sqrt(68.9e9 / 2700.);
+  const double thin = 10e-6, length = 40e-3,
+               c = std::sqrt(aluminum().young_modulus / aluminum().density);
   const auto mesh = [&]
   {
     // Cells of 1 mm along x, 10 um across.

@@ -8,13 +8,6 @@ namespace
 {
 constexpr double h = 1e-3;
 
-std::shared_ptr<Material> metal()
-{
-  return std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 1.});
-}
-
 /** Particles at @p points, a spacing of 1 mm, in all settings' defaults. */
 SpgBody &add(World &world, const std::vector<std::array<double, 3>> &points,
              const SpgOptions &options = SpgOptions())
@@ -24,8 +17,8 @@ SpgBody &add(World &world, const std::vector<std::array<double, 3>> &points,
   cloud.volume.assign(points.size(), h * h * h);
   cloud.spacing = {{h, h, h}};
   cloud.on_face.assign(points.size(), 0);
-  world.bodies.push_back(
-      std::make_unique<SpgBody>("cloud", 0, cloud, metal(), options));
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "cloud", 0, cloud, hardening_aluminum(), options));
   world.distribute();
   return static_cast<SpgBody &>(*world.bodies[0]);
 }
@@ -70,11 +63,11 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
 {
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.45;
+  options.set_critical_plastic_strain(0.45);
   options.failure_check_interval = 1;
   world.bodies.push_back(std::make_unique<SpgBody>(
-      "block", 0, make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, h), metal(),
-      options));
+      "block", 0, make_box_cloud({{0, 0, 0}}, {{3e-3, 3e-3, 3e-3}}, h),
+      hardening_aluminum(), options));
   world.couplings.push_back(std::make_unique<SelfContact>(
       "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
       SelfContactOptions(), MPI_COMM_WORLD));

@@ -1,6 +1,7 @@
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
+#include "sabot/materials/laws.h"
 #include "verification/balance.h"
 #include "verification/problem.h"
 
@@ -21,12 +22,11 @@ struct Outcome
 Outcome strike(const double speed, const double end)
 {
   constexpr double h = 2.5e-3, thickness = 12.5e-3;
-  const auto shock_data = std::make_shared<MieGruneisen>(
-      MieGruneisenParameters{2700., 5386., 1.339, 1.99, 0.});
-  const auto target = aluminium_6061(shock_data);
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 0.}, shock_data);
+  const auto target = metal("al6061-t6-eos");
+  const auto striker = std::make_shared<HardeningPlasticity>(
+      aluminum(), HardeningParameters{aluminum_yield_stress(), 150e6, 0.},
+      std::make_shared<MieGruneisen>(
+          mie_gruneisen_parameters("al6061-t6-eos")));
   World world;
   BoxSpecification box;
   box.size = {{60e-3, 60e-3, thickness}};
@@ -43,7 +43,7 @@ Outcome strike(const double speed, const double end)
   world.bodies.push_back(std::make_unique<FemBody>(
       "plate", 0, make_graded_box(box), target, plate));
   SpgOptions core;
-  core.critical_effective_plastic_strain = 0.4;
+  core.set_critical_plastic_strain(0.4);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "core", 1, make_box_cloud(box.centre, box.zone_size, h), target, core));
   FemOptions projectile;
@@ -51,7 +51,7 @@ Outcome strike(const double speed, const double end)
   projectile.inversion = FemOptions::Inversion::erode;
   world.bodies.push_back(std::make_unique<FemBody>(
       "projectile", 2,
-      make_cylinder(8.35e-3, 23e-3, 2, {{0., 0., 11.51e-3}}, 2.8e-3), metal,
+      make_cylinder(8.35e-3, 23e-3, 2, {{0., 0., 11.51e-3}}, 2.8e-3), striker,
       projectile));
   ContactOptions contact;
   contact.friction = 0.3;

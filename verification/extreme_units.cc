@@ -1,6 +1,7 @@
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
+#include "sabot/materials/laws.h"
 #include "verification/balance.h"
 #include "verification/problem.h"
 
@@ -31,20 +32,19 @@ struct State
 State run(const Units &u)
 {
   const double mm = 1e-3 * u.length;
-  JohnsonCookParameters p;
-  p.A = 324e6 * u.stress();
-  p.B = 114e6 * u.stress();
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.reference_strain_rate = 1. / u.time;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896. * u.velocity() * u.velocity();
-  const double density = 2700. * u.density();
+  JohnsonCookParameters p = johnson_cook_parameters("al6061-t6");
+  p.A *= u.stress();
+  p.B *= u.stress();
+  p.reference_strain_rate /= u.time;
+  p.specific_heat *= u.velocity() * u.velocity();
+  ElasticConstants elasticity = aluminum();
+  elasticity.density *= u.density();
+  elasticity.young_modulus *= u.stress();
+  MieGruneisenParameters shock = mie_gruneisen_parameters("al6061-t6-eos");
+  shock.density = elasticity.density;
+  shock.sound_speed *= u.velocity();
   const auto metal = std::make_shared<JohnsonCook>(
-      ElasticConstants{density, 68.9e9 * u.stress(), 0.33}, p,
-      std::make_shared<MieGruneisen>(MieGruneisenParameters{
-          density, 5386. * u.velocity(), 1.339, 1.99, 0.}));
+      elasticity, p, std::make_shared<MieGruneisen>(shock));
   World world;
   BoxSpecification box;
   box.size = {{9. * mm, 9. * mm, 3. * mm}};
@@ -56,7 +56,7 @@ State run(const Units &u)
   world.bodies.push_back(
       std::make_unique<FemBody>("plate", 0, make_graded_box(box), metal, fem));
   SpgOptions spg;
-  spg.critical_effective_plastic_strain = 0.1;
+  spg.set_critical_plastic_strain(0.1);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "core", 1, make_box_cloud({{0., 0., 0.}}, box.zone_size, mm), metal,
       spg));

@@ -1,3 +1,4 @@
+#include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 

@@ -1,3 +1,4 @@
+#include "sabot/materials/laws.h"
 #include "verification/balance.h"
 #include "verification/problem.h"
 

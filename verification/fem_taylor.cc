@@ -25,12 +25,9 @@ Bar taylor(const double h, const bool by_contact, const double step_factor)
   options.symmetry_boundary_ids = {3, 4};
   if (!by_contact)
     options.symmetry_boundary_ids.push_back(0);
-  const auto copper = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{8930., 117e9, 0.35},
-      HardeningParameters{400e6, 100e6, 1.});
   world.bodies.push_back(std::make_unique<FemBody>(
       "bar", 0, make_cylinder(3.2e-3, 32.4e-3, 2, {{0, 0, 16.2e-3}}, h, 2),
-      copper, options));
+      taylor_copper(), options));
   if (by_contact)
   {
     BoxSpecification box;
@@ -40,7 +37,7 @@ Bar taylor(const double h, const bool by_contact, const double step_factor)
     RigidOptions wall;
     wall.is_prescribed = true;
     world.bodies.push_back(std::make_unique<RigidBody>(
-        "wall", 1, make_graded_box(box), copper, wall));
+        "wall", 1, make_graded_box(box), taylor_copper(), wall));
     world.couplings.push_back(std::make_unique<Contact>(
         "impact", world.pointers(), std::vector<ContactPair>{{1, 0, false}},
         ContactOptions(), MPI_COMM_WORLD));

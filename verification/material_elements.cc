@@ -1,3 +1,4 @@
+#include "sabot/materials/laws.h"
 #include "verification/driven.h"
 #include "verification/problem.h"
 
@@ -9,13 +10,13 @@ namespace
 double sheared_stress(const FemOptions::ObjectiveRate rate, const double gamma,
                       double &normal)
 {
-  const ElasticConstants c{2700., 68.9e9, 0.33};
+  const ElasticConstants &c = aluminum();
   World world;
   FemOptions options;
   options.objective_rate = rate;
   const double h = 1e-3, speed = 100.; // shear rate speed/h
   world.bodies.push_back(std::make_unique<DrivenFemBody>(
-      "cell", 0, make_bar(0., 1, h), std::make_shared<Elastic>(c), options,
+      "cell", 0, make_bar(0., 1, h), elastic(), options,
       [=](NodalState &n, const double)
       {
         for (std::size_t i = 0; i < n.size(); ++i)
@@ -67,15 +68,9 @@ std::vector<Check> simple_shear()
     driven, the sides free. */
 std::vector<Check> uniaxial_johnson_cook()
 {
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  const ElasticConstants c{2700., 68.9e9, 0.33};
+  const JohnsonCookParameters p = johnson_cook_parameters("al6061-t6");
+  const double room = p.room_temperature;
+  const ElasticConstants &c = aluminum();
   std::vector<Check> checks;
   for (const double rate : {1e3, 1e4})
   {
@@ -85,8 +80,7 @@ std::vector<Check> uniaxial_johnson_cook()
     // Viscosity is a stress of its own here.
     options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
     world.bodies.push_back(std::make_unique<DrivenFemBody>(
-        "cell", 0, make_bar(0., 1, h), std::make_shared<JohnsonCook>(c, p),
-        options,
+        "cell", 0, make_bar(0., 1, h), metal("al6061-t6"), options,
         [=](NodalState &n, const double)
         {
           // Lateral motion starts with the elastic contraction and is
@@ -105,17 +99,18 @@ std::vector<Check> uniaxial_johnson_cook()
     const double strain = rate * world.integrator.time;
     // Reference: sigma = E (strain - eps), explicit in eps with the flow rule
     // inverted by bisection in each of many small steps.
-    double sigma = 0., eps = 0., T = 294.;
+    double sigma = 0., eps = 0., T = room;
     const int n = 200000;
     const double d_strain = strain / n, dt = d_strain / rate;
     for (int i = 0; i < n; ++i)
     {
       const double trial = sigma + c.young_modulus * d_strain;
-      const double thermal = 1. - std::pow((T - 294.) / (925. - 294.), 1.34);
+      const double thermal =
+          1. - std::pow((T - room) / (p.melt_temperature - room), p.m);
       const auto flow = [&](const double d)
       {
-        return (324e6 + 114e6 * std::pow(eps + d, 0.42)) *
-               (1. + 0.002 * std::log(std::max(1., d / dt))) * thermal;
+        return (p.A + p.B * std::pow(eps + d, p.n)) *
+               (1. + p.C * std::log(std::max(1., d / dt))) * thermal;
       };
       sigma = trial;
       if (trial > flow(0.))
@@ -128,7 +123,7 @@ std::vector<Check> uniaxial_johnson_cook()
         }
         sigma = trial - c.young_modulus * low;
         eps += low;
-        T += 0.9 * sigma * low / (2700. * 896.);
+        T += p.taylor_quinney * sigma * low / (c.density * p.specific_heat);
       }
     }
     const std::string at = ", rate " + std::to_string(int(rate)) + " 1/s";
@@ -140,9 +135,9 @@ std::vector<Check> uniaxial_johnson_cook()
     checks.push_back({"effective plastic strain" + at, eps,
                       cell.cell_state("effective plastic strain")[0],
                       2e-3 * eps, "1", source});
-    checks.push_back({"temperature rise" + at, T - 294.,
-                      cell.cell_state("temperature")[0] - 294.,
-                      5e-3 * (T - 294.), "K", source});
+    checks.push_back({"temperature rise" + at, T - room,
+                      cell.cell_state("temperature")[0] - room,
+                      5e-3 * (T - room), "K", source});
   }
   return checks;
 }

@@ -1,4 +1,5 @@
 #include "sabot/couplings/contact.h"
+#include "sabot/materials/laws.h"
 #include "verification/driven.h"
 #include "verification/problem.h"
 
@@ -6,9 +7,6 @@ namespace sabot
 {
 namespace
 {
-const ElasticConstants aluminium{2700., 68.9e9, 0.33};
-const MieGruneisenParameters shock_data{2700., 5386., 1.339, 1.99, 0.};
-
 /** Two slabs in uniaxial strain, meeting at x = 0 with @p speed each. */
 void add_slabs(World &world, const std::shared_ptr<const Material> &material,
                const int n, const double h, const double speed)
@@ -52,15 +50,18 @@ double axial_stress(const FemBody &body, const double start, const double h,
 std::vector<Check> hugoniot()
 {
   const double u = 485., h = 0.05e-3;
+  const MieGruneisenParameters shock =
+      mie_gruneisen_parameters("al6061-t6-eos");
+  const double rho = shock.density, c0 = shock.sound_speed,
+               slope = shock.shock_slope, gamma = shock.gruneisen;
   const int n = 200;
   World world;
   add_slabs(world,
             std::make_shared<HardeningPlasticity>(
-                aluminium, HardeningParameters{1e6, 0., 1.},
-                std::make_shared<MieGruneisen>(shock_data)),
+                aluminum(), HardeningParameters{1e6, 0., 1.},
+                std::make_shared<MieGruneisen>(shock)),
             n, h, u);
-  const double shock_speed = 5386. + 1.339 * u,
-               pressure = 2700. * shock_speed * u;
+  const double shock_speed = c0 + slope * u, pressure = rho * shock_speed * u;
   // Arrival where the velocity passes half the jump, at two places.
   Crossing near{-0.5 * u}, far{-0.5 * u};
   near.old_value = far.old_value = -u;
@@ -86,21 +87,21 @@ std::vector<Check> hugoniot()
   double J = J1, internal = 0.5 * u * u, release = 0.;
   for (;;)
   {
-    const double step = 1e-6, K = 2700. * 5386. * 5386.;
+    const double step = 1e-6, K = rho * c0 * c0;
     const auto p_at = [&](const double v, const double i)
     {
-      const double eta = 1. - v, D = 1. - 1.339 * eta;
-      return (eta > 0. ? K * eta / (D * D) * (1. - 0.5 * 1.99 * eta)
+      const double eta = 1. - v, D = 1. - slope * eta;
+      return (eta > 0. ? K * eta / (D * D) * (1. - 0.5 * gamma * eta)
                        : K * (1. / v - 1.)) +
-             1.99 * 2700. * i;
+             gamma * rho * i;
     };
     const double p = p_at(J, internal);
     if (p <= 0.)
       break;
-    const double next = p_at(J + step, internal - p * step / 2700.);
+    const double next = p_at(J + step, internal - p * step / rho);
     // du = sqrt(-dp dv)
-    release += std::sqrt((p - next) * step / 2700.);
-    internal -= p * step / 2700.;
+    release += std::sqrt((p - next) * step / rho);
+    internal -= p * step / rho;
     J += step;
   }
   return {
@@ -118,18 +119,16 @@ std::vector<Check> hugoniot()
 /** Symmetric impact at 2 x 60 m/s: elastic precursor and plastic wave. */
 std::vector<Check> precursor()
 {
-  const double u = 60., h = 0.05e-3, Y = 324e6;
+  const double u = 60., h = 0.05e-3, Y = aluminum_yield_stress(),
+               rho = aluminum().density;
   const int n = 200;
   World world;
-  add_slabs(world,
-            std::make_shared<HardeningPlasticity>(
-                aluminium, HardeningParameters{Y, 0., 1.}),
-            n, h, u);
-  const double K = aluminium.bulk_modulus(), G = aluminium.shear_modulus();
-  const double c_long = std::sqrt((K + 4. / 3. * G) / 2700.),
-               c_bulk = std::sqrt(K / 2700.);
+  add_slabs(world, hardening_aluminum(Y, 0.), n, h, u);
+  const double K = aluminum().bulk_modulus(), G = aluminum().shear_modulus();
+  const double c_long = std::sqrt((K + 4. / 3. * G) / rho),
+               c_bulk = std::sqrt(K / rho);
   const double limit = (K + 4. / 3. * G) * Y / (2. * G),
-               jump = limit / (2700. * c_long);
+               jump = limit / (rho * c_long);
   Crossing near{-u + 0.5 * jump}, far{-u + 0.5 * jump};
   near.old_value = far.old_value = -u;
   const FemBody &target = static_cast<const FemBody &>(*world.bodies[1]);
@@ -145,7 +144,7 @@ std::vector<Check> precursor()
       -axial_stress(target, 0., h, c_bulk * t + 0.3 * (c_long - c_bulk) * t,
                     c_long * t - 0.3 * (c_long - c_bulk) * t);
   const double final_stress = -axial_stress(target, 0., h, 1e-3, 4e-3);
-  const double expected = limit + 2700. * c_bulk * (u - jump);
+  const double expected = limit + rho * c_bulk * (u - jump);
   return {
       {"speed of the elastic precursor", c_long, 4e-3 / (far.time - near.time),
        0.01 * c_long, "m/s", "sqrt((K + 4 G/3)/rho)"},

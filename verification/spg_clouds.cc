@@ -72,7 +72,8 @@ void add_checks(std::vector<Check> &checks, const std::string &name,
       stress.set(2, 2, p + 4. / 3. * G * rate);
     }
     const Errors errors =
-        move(body, A, stress, rotate ? 1e-3 * 68.9e9 : stress(2, 2));
+        move(body, A, stress,
+             rotate ? 1e-3 * aluminum().young_modulus : stress(2, 2));
     (rotate ? rotation : patch) = errors;
     const BondList &bonds = body.bond_list();
     double n_bonds = 0.;

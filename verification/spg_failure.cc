@@ -1,3 +1,4 @@
+#include "sabot/base/choice.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 
@@ -8,13 +9,11 @@ namespace sabot
 namespace
 {
 constexpr double h = 1e-3;
-const ElasticConstants aluminium{2700., 68.9e9, 0.33};
 
 /** J2 plasticity without hardening. */
-std::shared_ptr<Material> perfect(const double yield)
+std::shared_ptr<const Material> perfect(const double yield)
 {
-  return std::make_shared<HardeningPlasticity>(
-      aluminium, HardeningParameters{yield, 0., 1.});
+  return hardening_aluminum(yield, 0.);
 }
 
 SpgOptions inviscid()
@@ -96,8 +95,7 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
 std::vector<Check> criteria()
 {
   std::vector<Check> checks;
-  using Criterion = SpgOptions::FailureCriterion;
-  const double K = aluminium.bulk_modulus(), G = aluminium.shear_modulus();
+  const double K = aluminum().bulk_modulus(), G = aluminum().shear_modulus();
   const auto uniaxial = [](const double e)
   {
     Mat A = Mat::identity();
@@ -121,32 +119,32 @@ std::vector<Check> criteria()
   {
     // eps_p = e - Y/(3 G) in isochoric stretching without hardening.
     SpgOptions o = inviscid();
-    o.critical_effective_plastic_strain = 0.1;
-    const double Y = 324e6;
+    o.set_critical_plastic_strain(0.1);
+    const double Y = aluminum_yield_stress();
     add_criterion(checks, "plastic strain 0.1", o, perfect(Y),
                   0.1 + Y / (3. * G), "e - Y/(3 G)", isochoric);
   }
   {
     // Uniaxial strain: sigma_xx = (K + 4 G/3) e.
     SpgOptions o = inviscid();
-    o.failure_criterion = Criterion::principal_stress;
-    o.critical_principal_stress = 1e9;
+    o.failure_criterion = choose<FailureCriterion>(
+        "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
     add_criterion(checks, "principal stress 1 GPa", o, elastic(0.33),
                   1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e", uniaxial);
   }
   {
     // Simple shear: ln(l1/l3) = 2 asinh(gamma/2).
     SpgOptions o = inviscid();
-    o.failure_criterion = Criterion::shear_strain;
-    o.critical_shear_strain = 0.2;
+    o.failure_criterion = choose<FailureCriterion>(
+        "maximum shear strain", {{"Critical shear strain", "0.2"}});
     add_criterion(checks, "shear strain 0.2", o, elastic(0.33),
                   2. * std::sinh(0.1), "2 asinh(gamma/2)", shear);
   }
   {
     // Both conditions: the first bonds are those along the stretch.
     SpgOptions o = inviscid();
-    o.failure_criterion = Criterion::principal_stress;
-    o.critical_principal_stress = 1e9;
+    o.failure_criterion = choose<FailureCriterion>(
+        "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
     o.critical_stretch = 1.05;
     World world;
     SpgBody &body = add_block(world, o, elastic(0.33));
@@ -193,8 +191,8 @@ std::vector<Check> no_healing()
     o.neighbor_policy = policy;
     o.kernel_update_interval = 4;
     o.kernel_update_strain = 0.;
-    o.critical_effective_plastic_strain = 0.1;
-    SpgBody &body = add_block(world, o, perfect(324e6));
+    o.set_critical_plastic_strain(0.1);
+    SpgBody &body = add_block(world, o, perfect(aluminum_yield_stress()));
     NodalState &n = body.nodes();
     // The particles beside the middle plane are strained beyond the limit.
     for (std::size_t i = 0; i < n.n_owned; ++i)
@@ -300,8 +298,8 @@ std::vector<Check> weak_particles()
 {
   World world;
   SpgOptions o = inviscid();
-  o.critical_effective_plastic_strain = 0.1;
-  const double Y = 324e6;
+  o.set_critical_plastic_strain(0.1);
+  const double Y = aluminum_yield_stress();
   SpgBody &body = add_block(world, o, perfect(Y));
   NodalState &n = body.nodes();
   // The layer before the last comes loose: the last is a sheet.
@@ -333,7 +331,7 @@ std::vector<Check> weak_particles()
   // The sheet is held in its plane and free across: uniaxial strain there.
   double strained = 0., extra = -1e300, pressed = 0.;
   const double expected =
-      aluminium.bulk_modulus() * std::log(A(1, 1)) - 2. / 3. * Y;
+      aluminum().bulk_modulus() * std::log(A(1, 1)) - 2. / 3. * Y;
   for (const std::size_t i : weak)
   {
     pressed = std::min(pressed, body.stress(1, i));

@@ -5,18 +5,18 @@ namespace sabot
 {
 namespace
 {
-constexpr double length = 1e-3, conductivity = 167., heat = 2700. * 896.;
+constexpr double length = 1e-3, conductivity = 167.;
 
-std::shared_ptr<JohnsonCook> metal()
+/** 6061-T6 that does not yield. */
+std::shared_ptr<const Material> unyielding()
 {
-  JohnsonCookParameters p;
-  p.A = 1e12;
-  p.melt_temperature = 2000.;
-  p.room_temperature = p.initial_temperature = 300.;
-  p.specific_heat = 896.;
-  p.conductivity = conductivity;
-  return std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33},
-                                       p);
+  return metal("al6061-t6",
+               {"Johnson-Cook/Initial yield stress=1e12",
+                "Johnson-Cook/Hardening modulus=0",
+                "Johnson-Cook/Melt temperature=2000 K",
+                "Johnson-Cook/Room temperature=300 K",
+                "Johnson-Cook/Initial temperature=300 K",
+                change("Johnson-Cook/Thermal conductivity", conductivity)});
 }
 
 struct Slab
@@ -28,6 +28,8 @@ struct Slab
     exp(-kappa pi^2 t/L^2); largest error over 100 K. */
 Slab slab(const ParticleCloud &cloud, const int steps)
 {
+  const double heat = aluminum().density *
+                      metal_entry("al6061-t6", "Johnson-Cook/Specific heat");
   const double kappa = conductivity / heat, k = M_PI / length,
                end = 0.5 / (kappa * k * k);
   World world;
@@ -35,7 +37,7 @@ Slab slab(const ParticleCloud &cloud, const int steps)
   options.conducts_heat = true;
   options.conduction_interval = 0.;
   world.bodies.push_back(
-      std::make_unique<SpgBody>("slab", 0, cloud, metal(), options));
+      std::make_unique<SpgBody>("slab", 0, cloud, unyielding(), options));
   world.distribute();
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   const NodalState &n = body.nodes();

@@ -9,7 +9,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double yield = 324e6;
 // Sheared 0.3 to 0.8 mm far, the ends of 12 mm face each other over this part.
 constexpr double overlap = 1. - 0.55 / 12.;
 
@@ -21,10 +20,7 @@ std::array<double, 2> shear(const double h)
   World world;
   world.bodies.push_back(std::make_unique<SpgBody>(
       "block", 0, make_box_cloud({{0, 0, 0}}, {{Lx, Ly, Lz}}, h),
-      std::make_shared<HardeningPlasticity>(
-          ElasticConstants{2700., 68.9e9, 0.33},
-          HardeningParameters{yield, 0., 1.}),
-      SpgOptions()));
+      hardening_aluminum(aluminum_yield_stress(), 0.), SpgOptions()));
   world.distribute();
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   NodalState &n = body.nodes();
@@ -68,7 +64,8 @@ std::vector<Check> spg_limit_load()
   {
     const double h = spacings[k];
     const auto [stress, part] = shear(h);
-    const double over = stress / (yield / std::sqrt(3.) * overlap);
+    const double over =
+        stress / (aluminum_yield_stress() / std::sqrt(3.) * overlap);
     excess[k] = over - 1.;
     char name[80];
     std::snprintf(name, sizeof(name), "%g spacings high: stress over its limit",

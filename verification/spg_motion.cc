@@ -1,4 +1,5 @@
 #include "sabot/kernels/stress_update.h"
+#include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 
@@ -180,22 +181,12 @@ std::vector<Check> spg_johnson_cook()
 {
   // Isochoric stretching at a constant rate, adiabatic, against the integrated
   // law by small steps.
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.reference_strain_rate = 1.;
-  p.room_temperature = p.initial_temperature = 294.;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  p.taylor_quinney = 0.9;
-  const ElasticConstants elastic_part{2700., 68.9e9, 0.33};
+  const JohnsonCookParameters p = johnson_cook_parameters("al6061-t6");
+  const ElasticConstants &elasticity = aluminum();
   const double rate = 1e4, end = 0.5, dt = 2e-9;
   World world;
   SpgBody &body = add_block(world, {{4e-3, 4e-3, 4e-3}}, h, 0.1, inviscid(),
-                            std::make_shared<JohnsonCook>(elastic_part, p));
+                            metal("al6061-t6"));
   const int steps = std::lround(end / (rate * dt));
   for (int s = 1; s <= steps; ++s)
   {
@@ -208,15 +199,16 @@ std::vector<Check> spg_johnson_cook()
   }
   // sigma_eq = 3 G (e - eps), eps from the flow rule, by a fine explicit
   // integration.
-  const double G = elastic_part.young_modulus / (2. * (1. + 0.33));
-  double eps = 0., T = 294.;
+  const double G = elasticity.shear_modulus();
+  double eps = 0., T = p.room_temperature;
   const int fine = 2000000;
   const double de = end / fine;
   double sigma = 0.;
   for (int s = 0; s < fine; ++s)
   {
     sigma += 3. * G * de;
-    const double theta = (T - 294.) / (925. - 294.);
+    const double theta =
+        (T - p.room_temperature) / (p.melt_temperature - p.room_temperature);
     const double flow = (p.A + p.B * std::pow(std::max(eps, 1e-12), p.n)) *
                         (1. + p.C * std::log(rate)) *
                         (1. - std::pow(std::max(0., theta), p.m));
@@ -224,7 +216,7 @@ std::vector<Check> spg_johnson_cook()
     {
       const double d = (sigma - flow) / (3. * G);
       eps += d;
-      T += 0.9 * flow * d / (2700. * 896.);
+      T += p.taylor_quinney * flow * d / (elasticity.density * p.specific_heat);
       sigma = flow;
     }
   }

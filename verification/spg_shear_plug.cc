@@ -1,7 +1,6 @@
 // The work that it takes to shear a layer of particles off, by nodal spacing:
 // the part of a plug's energy that follows the spacing.
 #include "sabot/couplings/self_contact.h"
-#include "sabot/materials/johnson_cook.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 
@@ -9,22 +8,6 @@ namespace sabot
 {
 namespace
 {
-JohnsonCookParameters aluminium()
-{
-  JohnsonCookParameters p;
-  p.A = 324e6;
-  p.B = 114e6;
-  p.n = 0.42;
-  p.C = 0.002;
-  p.m = 1.34;
-  p.reference_strain_rate = 1.;
-  p.room_temperature = p.initial_temperature = 294.;
-  p.melt_temperature = 925.;
-  p.specific_heat = 896.;
-  p.taylor_quinney = 0.9;
-  return p;
-}
-
 struct Shearing
 {
   double work; // of the driven ends per sheared area [J/m^2]
@@ -38,12 +21,10 @@ Shearing shear(const double h, const double failure_strain)
   const double Lx = 10e-3, Ly = 3e-3, Lz = 8e-3, v = 60., grip = 1.01e-3;
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = failure_strain;
+  options.set_critical_plastic_strain(failure_strain);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "block", 0, make_box_cloud({{0, 0, 0}}, {{Lx, Ly, Lz}}, h),
-      std::make_shared<JohnsonCook>(ElasticConstants{2700., 68.9e9, 0.33},
-                                    aluminium()),
-      options));
+      metal("al6061-t6"), options));
   world.couplings.push_back(std::make_unique<SelfContact>(
       "debris", world.pointers(), std::vector<std::pair<int, int>>{{0, 0}},
       SelfContactOptions(), MPI_COMM_WORLD));

@@ -37,10 +37,7 @@ Bar strike(const double h, const bool by_contact, const double step_factor)
   world.bodies.push_back(std::make_unique<SpgBody>(
       "bar", 0,
       make_mesh_cloud(make_cylinder(R, L, 2, {{0., 0., 0.5 * L}}, h, 2)),
-      std::make_shared<HardeningPlasticity>(
-          ElasticConstants{8930., 117e9, 0.35},
-          HardeningParameters{400e6, 100e6, 1.}),
-      options));
+      taylor_copper(), options));
   if (by_contact)
   {
     // Reaches beyond the planes of symmetry, so that no node is near its rim.

@@ -8,12 +8,10 @@ namespace sabot
 {
 namespace
 {
-const ElasticConstants aluminium{2700., 68.9e9, 0.33};
-
 /** Energy that unloading would give back, by the stresses [J]. */
 double elastic_energy(const SpgBody &body)
 {
-  const double K = aluminium.bulk_modulus(), G = aluminium.shear_modulus();
+  const double K = aluminum().bulk_modulus(), G = aluminum().shear_modulus();
   double sum = 0.;
   const NodalState &n = body.nodes();
   for (std::size_t i = 0; i < n.n_owned; ++i)
@@ -25,7 +23,8 @@ double elastic_energy(const SpgBody &body)
     double square = 0.;
     for (int c = 0; c < 3; ++c)
       square += (s[c] - p) * (s[c] - p) + 2. * s[3 + c] * s[3 + c];
-    sum += n.lumped_mass[i] / 2700. * (p * p / (2. * K) + square / (4. * G));
+    sum += n.lumped_mass[i] / aluminum().density *
+           (p * p / (2. * K) + square / (4. * G));
   }
   return sum;
 }
@@ -39,9 +38,8 @@ std::vector<Check> tension_bar()
     const double L = 12e-3, w = 3e-3, v = 250.;
     World world;
     SpgOptions o;
-    o.critical_effective_plastic_strain = 0.4;
-    const auto metal = std::make_shared<HardeningPlasticity>(
-        aluminium, HardeningParameters{324e6, 150e6, 1.});
+    o.set_critical_plastic_strain(0.4);
+    const auto metal = hardening_aluminum();
     world.bodies.push_back(std::make_unique<SpgBody>(
         "bar", 0, make_box_cloud({{0, 0, 0}}, {{L, w, w}}, spacing), metal, o));
     world.couplings.push_back(std::make_unique<SelfContact>(

@@ -1,19 +1,12 @@
 #include "sabot/couplings/tie.h"
-#include "sabot/geometry/mesh_extraction.h"
+#include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 namespace sabot
 {
 namespace
 {
-constexpr double rho = 2700., E = 68.9e9, nu = 0.33;
-const double wave_speed =
-    std::sqrt(E * (1. - nu) / ((1. + nu) * (1. - 2. * nu) * rho));
 constexpr double coarse = 1e-3; // [m], cells of the hexahedra
 
 /** A body whose end across x at @p end moves as a burst of two periods, then
@@ -62,7 +55,8 @@ struct Crossing
     hexahedra of edge H and particles H / @p ratio apart. */
 Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
 {
-  const double length = n_coarse * coarse, period = length / wave_speed;
+  const double length = n_coarse * coarse,
+               period = length / elastic()->sound_speed();
   const double before = 3. * length, behind = 4.5 * length;
   World world;
   BoxSpecification box;
@@ -80,12 +74,12 @@ Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
   const double far = 1e3; // no end there
   world.bodies.push_back(std::make_unique<Driven<FemBody>>(
       from_particles ? far : -before, period, "cells", 0, make_graded_box(box),
-      elastic(nu), fem));
+      elastic(), fem));
   world.bodies.push_back(std::make_unique<Driven<SpgBody>>(
       from_particles ? before : far, period, "particles", 1,
       make_box_cloud({{0.5 * cloud, 0., 0.}}, {{cloud, coarse, coarse}},
                      coarse / ratio),
-      elastic(nu), spg));
+      elastic(), spg));
   world.couplings.push_back(std::make_unique<Tie>("tie", world.pointers(), 1, 0,
                                                   0.05, MPI_COMM_WORLD));
   world.distribute();
@@ -94,7 +88,8 @@ Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
     world.advance(0.9);
   const double sent = world.total_energy();
   // The slowest part has crossed, and no reflection has come back twice.
-  while (world.integrator.time < 1.4 * (2. * length + before) / wave_speed)
+  while (world.integrator.time <
+         1.4 * (2. * length + before) / elastic()->sound_speed())
     world.advance(0.9);
   EnergyLedger ledger;
   world.couplings[0]->add_energies(ledger);
@@ -154,19 +149,14 @@ Patch linear_patch(const double cell, const double sag)
   const auto bend = [&](std::array<double, 3> &p)
   { p[0] += sag * (p[1] * p[1] + 0.5 * p[2] * p[2]) / 36e-6; };
   World world;
-  dealii::Triangulation<3> grid;
   const unsigned int n = std::lround(6e-3 / cell);
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {n, 2 * n, 2 * n}, {-6e-3, -6e-3, -6e-3}, {0., 6e-3, 6e-3});
-  dealii::GridTools::transform(
-      [&](const dealii::Point<3> &x)
+  const HexMesh mesh = mapped_block(
+      {{{n, 2 * n, 2 * n}}, {{-6e-3, -6e-3, -6e-3}}, {{0., 6e-3, 6e-3}}},
+      [&](MeshPoint p)
       {
-        std::array<double, 3> p{{x[0], x[1], x[2]}};
         bend(p);
-        return dealii::Point<3>(p[0], p[1], p[2]);
-      },
-      grid);
-  const HexMesh mesh = extract_mesh(grid);
+        return p;
+      });
   ParticleCloud cloud =
       make_box_cloud({{3e-3, 0., 0.}}, {{6e-3, 12e-3, 12e-3}}, 1e-3);
   for (auto &p : cloud.position)
@@ -262,18 +252,13 @@ std::vector<Check> linear()
 HexMesh pipe(const double inner, const double outer, const int n_around,
              const int n_along)
 {
-  dealii::Triangulation<3> grid;
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {2, unsigned(n_around), unsigned(n_along)},
-      dealii::Point<3>(inner, 0., 0.), dealii::Point<3>(outer, M_PI_2, 4e-3));
-  dealii::GridTools::transform(
-      [](const dealii::Point<3> &x)
-      {
-        return dealii::Point<3>(x[0] * std::cos(x[1]), x[0] * std::sin(x[1]),
-                                x[2]);
-      },
-      grid);
-  return extract_mesh(grid);
+  return mapped_block(
+      {{{2, unsigned(n_around), unsigned(n_along)}},
+       {{inner, 0., 0.}},
+       {{outer, M_PI_2, 4e-3}}},
+      [](const MeshPoint &x) {
+        return MeshPoint{{x[0] * std::cos(x[1]), x[0] * std::sin(x[1]), x[2]}};
+      });
 }
 
 struct Pipes

@@ -6,7 +6,7 @@
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/integrator/central_difference.h"
-#include "sabot/materials/laws.h"
+#include "verification/metals.h"
 
 #include <cmath>
 #include <random>
@@ -88,11 +88,6 @@ struct World
     return sum;
   }
 };
-
-inline std::shared_ptr<Material> elastic(const double nu = 0.33)
-{
-  return std::make_shared<Elastic>(ElasticConstants{2700., 68.9e9, nu});
-}
 
 inline double measure(const Body &body, const std::string &name)
 {

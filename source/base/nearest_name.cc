@@ -1,5 +1,7 @@
 #include "sabot/base/nearest_name.h"
 
+#include "sabot/base/error.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -37,5 +39,17 @@ std::string nearest_name(const std::string &name,
       allowed.begin(), allowed.end(),
       [&](const std::string &a, const std::string &b)
       { return edit_distance(name, a) < edit_distance(name, b); });
+}
+
+void throw_unknown_name(const std::string &path, const std::string &what,
+                        const std::string &name,
+                        const std::vector<std::string> &allowed)
+{
+  if (name.empty())
+    throw InputError(path, "needs the name of a " + what);
+  std::string message = "no " + what + " is called \"" + name + "\"";
+  if (!allowed.empty())
+    message += "; did you mean \"" + nearest_name(name, allowed) + "\"?";
+  throw InputError(path, message);
 }
 } // namespace sabot

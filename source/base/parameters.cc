@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <sstream>
 #include <stdexcept>
 
 namespace sabot
@@ -112,14 +113,44 @@ void Parameters::declare_entry(const std::string &name,
   prm->declare_entry(name, standard, pattern.get(), meaning);
 }
 
+void Parameters::declare_knob(const std::string &name,
+                              const std::string &standard,
+                              const Pattern &pattern,
+                              const std::string &meaning)
+{
+  declare_entry(name, standard, pattern, meaning);
+  all_knobs.push_back(section);
+  all_knobs.back().push_back(name);
+}
+
+std::vector<std::pair<std::string, std::string>> Parameters::knobs()
+{
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const std::vector<std::string> &knob : all_knobs)
+  {
+    std::string path;
+    for (std::size_t k = 0; k + 1 < knob.size(); ++k)
+    {
+      prm->enter_subsection(knob[k]);
+      path += knob[k] + "/";
+    }
+    values.emplace_back(path + knob.back(), get(knob.back()));
+    for (std::size_t k = 0; k + 1 < knob.size(); ++k)
+      prm->leave_subsection();
+  }
+  return values;
+}
+
 void Parameters::enter_subsection(const std::string &name)
 {
   prm->enter_subsection(name);
+  section.push_back(name);
 }
 
 void Parameters::leave_subsection()
 {
   prm->leave_subsection();
+  section.pop_back();
 }
 
 std::string Parameters::get(const std::string &name) const
@@ -155,6 +186,35 @@ bool Parameters::is_declared(const std::string &name) const
   {
     return false;
   }
+}
+
+std::vector<std::string> Parameters::entry_names() const
+{
+  // Without subsections there are lines "set name = value" only.
+  std::stringstream lines;
+  prm->print_parameters(lines,
+                        dealii::ParameterHandler::ShortText |
+                            dealii::ParameterHandler::KeepDeclarationOrder);
+  std::vector<std::string> names;
+  int depth = 0;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == std::string::npos)
+      continue;
+    line.erase(0, first);
+    if (line.compare(0, 11, "subsection ") == 0)
+      ++depth;
+    else if (line == "end")
+      --depth;
+    else if (depth == 0 && line.compare(0, 4, "set ") == 0)
+    {
+      std::string name = line.substr(4, line.find(" = ") - 4);
+      name.erase(name.find_last_not_of(' ') + 1);
+      names.push_back(name);
+    }
+  }
+  return names;
 }
 
 bool Parameters::set(const std::string &name, const std::string &value)

@@ -10,6 +10,7 @@ namespace
 class VtuOutput : public Output
 {
 public:
+  bool writes_fields() const override { return true; }
   void open(RunFiles &files) override { files.open_fields(); }
 
 protected:

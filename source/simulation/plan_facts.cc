@@ -1,5 +1,5 @@
+// What the plan knows of the bodies and of their impact before the run.
 #include "sabot/simulation/plan_facts.h"
-#include "sabot/base/parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr double never = std::numeric_limits<double>::max();
 
 /** Von Mises stress at which a law first flows in pure shear at about
     1e3 1/s. */
-double find_yield_stress(const Material &material)
+std::optional<double> find_yield_stress(const Material &material)
 {
   std::vector<double> states;
   for (const StateVariable &variable : material.state_variables())
@@ -45,84 +45,41 @@ double find_yield_stress(const Material &material)
     if (factor < 1.)
       return std::sqrt(3.) * std::abs(stress[3]);
   }
-  return never;
+  return std::nullopt;
 }
 
-/** The value of an entry of the present subsection, or @p standard where this
-    kind of section has none. */
-std::string get_or(Parameters &prm, const std::string &entry,
-                   const std::string &standard)
-{
-  return prm.is_declared(entry) ? prm.get(entry) : standard;
-}
 } // namespace
 
-std::vector<BodyFacts> find_body_facts(Scene &scene)
+std::vector<PlannedBody> find_body_facts(const Scene &scene)
 {
-  Parameters &prm = scene.prm;
-  std::vector<BodyFacts> facts;
+  std::vector<PlannedBody> bodies;
   for (const auto &body : scene.bodies)
   {
-    BodyFacts f;
-    f.name = body->name;
-    prm.enter_subsection("Bodies");
-    prm.enter_subsection(body->name);
-    f.material = prm.get("Material");
-    f.is_spg = prm.get("Discretization") == "SPG";
-    f.is_rigid = prm.get("Discretization") == "rigid";
-    const std::vector<double> v = get_quantities(prm, "Initial velocity");
-    f.velocity = {{v[0], v[1], v[2]}};
-    f.failure_strain =
-        f.is_spg ? get_quantity(prm, "Critical effective plastic strain")
-                 : never;
-    if (f.failure_strain >= 1e10)
-      f.failure_strain = never;
-    const std::vector<double> spacing =
-        get_quantities(prm, f.is_spg ? "Nodal spacing" : "Cell size");
-    f.spacing = *std::min_element(spacing.begin(), spacing.end());
-    const bool is_from_file =
-        !f.is_spg && get_or(prm, "Geometry", "") == "file";
-    f.is_clamped = !get_or(prm, "Clamped faces", "").empty();
-    prm.leave_subsection();
-    prm.leave_subsection();
-    prm.enter_subsection("Materials");
-    prm.enter_subsection(f.material);
-    const auto material = Material::make(prm, "Materials/" + f.material);
-    const std::string eos = get_or(prm, "Equation of state", "");
-    prm.leave_subsection();
-    prm.leave_subsection();
-    f.density = material->density();
-    f.bulk_modulus = material->bulk_modulus();
-    f.shear_modulus = material->shear_modulus();
-    f.wave_speed = material->sound_speed();
-    f.yield_stress = f.is_rigid ? never : find_yield_stress(*material);
-    f.has_equation_of_state =
-        !eos.empty() && eos.find("ulk modulus") == std::string::npos;
-    f.low = {{never, never, never}};
-    f.high = {{-never, -never, -never}};
+    PlannedBody b{body->name, body->facts(), std::nullopt, {}, {}};
+    if (b.facts.deforms)
+      b.yield_stress = find_yield_stress(*b.facts.material);
+    b.low = {{never, never, never}};
+    b.high = {{-never, -never, -never}};
     for (const auto &x : body->partition_points())
       for (int d = 0; d < 3; ++d)
       {
-        f.low[d] = std::min(f.low[d], x[d]);
-        f.high[d] = std::max(f.high[d], x[d]);
+        b.low[d] = std::min(b.low[d], x[d]);
+        b.high[d] = std::max(b.high[d], x[d]);
       }
-    // Nobody told it: the edge of as many cubes that fill the same box.
-    if (is_from_file)
-      f.spacing = std::cbrt((f.high[0] - f.low[0]) * (f.high[1] - f.low[1]) *
-                            (f.high[2] - f.low[2]) / body->n_items());
-    facts.push_back(f);
+    bodies.push_back(b);
   }
-  return facts;
+  return bodies;
 }
 
-ImpactFacts find_impact(const std::vector<BodyFacts> &bodies)
+ImpactFacts find_impact(const std::vector<PlannedBody> &bodies)
 {
   ImpactFacts impact;
   const auto relative = [&](const std::size_t a, const std::size_t b)
   {
     double square = 0.;
     for (int d = 0; d < 3; ++d)
-      square += std::pow(bodies[a].velocity[d] - bodies[b].velocity[d], 2);
+      square += std::pow(
+          bodies[a].facts.velocity[d] - bodies[b].facts.velocity[d], 2);
     return std::sqrt(square);
   };
   const auto size = [&](const std::size_t b)
@@ -143,8 +100,8 @@ ImpactFacts find_impact(const std::vector<BodyFacts> &bodies)
         double own = 0., other = 0.;
         for (int d = 0; d < 3; ++d)
         {
-          own += std::pow(bodies[a].velocity[d], 2);
-          other += std::pow(bodies[b].velocity[d], 2);
+          own += std::pow(bodies[a].facts.velocity[d], 2);
+          other += std::pow(bodies[b].facts.velocity[d], 2);
         }
         if (own < other)
           continue; // the faster one is the projectile
@@ -156,12 +113,12 @@ ImpactFacts find_impact(const std::vector<BodyFacts> &bodies)
     }
   if (!impact.exists)
     return impact;
-  const BodyFacts &p = bodies[impact.projectile], &t = bodies[impact.target];
+  const PlannedBody &p = bodies[impact.projectile], &t = bodies[impact.target];
   double largest = -1.;
   for (int d = 0; d < 3; ++d)
-    if (std::abs(p.velocity[d] - t.velocity[d]) > largest)
+    if (std::abs(p.facts.velocity[d] - t.facts.velocity[d]) > largest)
     {
-      largest = std::abs(p.velocity[d] - t.velocity[d]);
+      largest = std::abs(p.facts.velocity[d] - t.facts.velocity[d]);
       impact.axis = d;
     }
   impact.radius = never;
@@ -170,11 +127,11 @@ ImpactFacts find_impact(const std::vector<BodyFacts> &bodies)
       impact.radius = std::min(impact.radius, 0.5 * (p.high[d] - p.low[d]));
   const double half = 0.5 * impact.speed;
   double yield = never;
-  for (const BodyFacts &body : bodies)
-    yield = std::min(yield, body.yield_stress);
+  for (const PlannedBody &body : bodies)
+    yield = std::min(yield, body.yield_stress.value_or(never));
   if (yield < never)
   {
-    const double k = p.density * half * half / yield;
+    const double k = p.facts.material->density() * half * half / yield;
     const double e = 0.5 * (std::sqrt(k * k + 4. * k) - k);
     impact.largest_strain = std::min(std::log(4.), -std::log1p(-e));
   }

@@ -116,9 +116,9 @@ std::vector<double> wave_distances(const Scene &scene, const std::size_t body,
 /** Time between energy checks is the run's over this (as in run.cc). */
 constexpr double n_checks = 200.;
 
-double n_outputs(const OutputSettings &output, const double end)
+double n_outputs(const Output &output, const double end)
 {
-  return std::floor(end / output.interval * (1. + 1e-9)) + 1.;
+  return std::floor(end / output.period() * (1. + 1e-9)) + 1.;
 }
 
 /** A folder of its own among the temporary ones, removed at the end; empty
@@ -201,7 +201,7 @@ void append_row(const Scene &scene, History &history)
     history.append(body->name, body->measure().columns());
   }
   Measures row;
-  for (const QuantityOfInterest &quantity : scene.quantities)
+  for (const auto &quantity : scene.quantities)
     row.push_back(
         {quantity.name, "1", scene.bodies[quantity.body]->measure().mass});
   if (!row.empty())
@@ -236,9 +236,9 @@ FieldSize field_size(const OutputMesh &mesh, const bool all_yield)
 double n_rows(const Scene &scene)
 {
   double n = n_checks;
-  for (const OutputSettings &output : scene.outputs)
-    if (output.type == OutputSettings::Type::history)
-      n += n_outputs(output, scene.settings.end_time);
+  for (const auto &output : scene.outputs)
+    if (output->needs_rows())
+      n += n_outputs(*output, scene.settings.end_time);
   return n;
 }
 
@@ -261,7 +261,7 @@ OutputEstimate::OutputEstimate(const Scene &scene, const PhysicsPlan &physics,
     output.size = field_size(body.output_mesh(), !(is_host && speed == 0.));
     output.distances = wave_distances(scene, b, communicator);
     std::sort(output.distances.begin(), output.distances.end());
-    output.wave_speed = physics.bodies[b].wave_speed;
+    output.wave_speed = physics.bodies[b].facts.material->sound_speed();
     bodies.push_back(output);
   }
 }
@@ -271,10 +271,10 @@ double OutputEstimate::bytes(const double time) const
   const double end = scene.settings.end_time;
   double n_frames = 0.;
   std::vector<double> times;
-  for (const OutputSettings &output : scene.outputs)
-    if (output.type == OutputSettings::Type::vtu)
+  for (const auto &output : scene.outputs)
+    if (output->writes_fields())
     {
-      n_frames = n_outputs(output, end);
+      n_frames = n_outputs(*output, end);
       // Many frames are sampled by a hundred.
       const double n_samples = std::min(n_frames, 100.);
       for (double k = 0.; k < n_samples; k += 1.)
@@ -313,11 +313,9 @@ double OutputEstimate::bytes(const double time) const
   for (const auto &body : scene.bodies)
     columns += 1. + body->measure().columns().size();
   columns += scene.quantities.empty() ? 0. : 1. + scene.quantities.size();
-  std::ostringstream parameters;
-  print_expanded(scene.prm, parameters);
   constexpr double result_and_log = 10e3;
-  return bytes + 8. * columns * n_rows(scene) + parameters.str().size() +
-         result_and_log;
+  return bytes + 8. * columns * n_rows(scene) +
+         scene.expanded_parameters().size() + result_and_log;
 }
 
 double output_seconds(const Scene &scene, const double n_steps,
@@ -327,9 +325,9 @@ double output_seconds(const Scene &scene, const double n_steps,
   MPI_Comm_rank(communicator, &rank);
   const double rows = std::min(n_steps, n_rows(scene));
   double n_frames = 0.;
-  for (const OutputSettings &output : scene.outputs)
-    if (output.type == OutputSettings::Type::vtu)
-      n_frames += n_outputs(output, scene.settings.end_time);
+  for (const auto &output : scene.outputs)
+    if (output->writes_fields())
+      n_frames += n_outputs(*output, scene.settings.end_time);
   History history;
   std::vector<double> seconds;
   for (int k = 0; k < 7; ++k)

@@ -1,5 +1,8 @@
+// Which physics a scene needs, from dimensionless numbers.
 #include "sabot/simulation/plan_facts.h"
 #include "sabot/simulation/zone_verdict.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +29,8 @@ constexpr double largest_diffusivity = 1.2e-4;
 void judge_heat(const Scene &scene, PhysicsPlan &plan)
 {
   double spacing = never;
-  for (const BodyFacts &body : plan.bodies)
-    spacing = std::min(spacing, body.spacing);
+  for (const PlannedBody &body : plan.bodies)
+    spacing = std::min(spacing, body.facts.spacing);
   const double fourier =
       largest_diffusivity * scene.settings.end_time / (spacing * spacing);
   plan.numbers.push_back(
@@ -41,18 +44,22 @@ void judge_heat(const Scene &scene, PhysicsPlan &plan)
 void judge_impact(const Scene &scene, PhysicsPlan &plan)
 {
   const ImpactFacts &impact = plan.impact;
-  const BodyFacts &p = plan.bodies[impact.projectile],
-                  &t = plan.bodies[impact.target];
-  const double Zp = p.density * p.wave_speed, Zt = t.density * t.wave_speed;
+  const PlannedBody &p = plan.bodies[impact.projectile],
+                    &t = plan.bodies[impact.target];
+  const Material &of_p = *p.facts.material, &of_t = *t.facts.material;
+  const double Zp = of_p.density() * of_p.sound_speed(),
+               Zt = of_t.density() * of_t.sound_speed();
+  const bool p_is_rigid = !p.facts.deforms, t_is_rigid = !t.facts.deforms;
   // A rigid body is infinitely stiff, and no law of its own counts.
-  if (p.is_rigid && t.is_rigid)
+  if (p_is_rigid && t_is_rigid)
     return;
-  const double pressure = impact.speed * (p.is_rigid   ? Zt
-                                          : t.is_rigid ? Zp
+  const double pressure = impact.speed * (p_is_rigid   ? Zt
+                                          : t_is_rigid ? Zp
                                                        : Zp * Zt / (Zp + Zt));
-  const double K = p.is_rigid   ? t.bulk_modulus
-                   : t.is_rigid ? p.bulk_modulus
-                                : std::min(p.bulk_modulus, t.bulk_modulus);
+  const double K = p_is_rigid ? of_t.bulk_modulus()
+                   : t_is_rigid
+                       ? of_p.bulk_modulus()
+                       : std::min(of_p.bulk_modulus(), of_t.bulk_modulus());
   plan.numbers.push_back(
       {"impact pressure over bulk modulus", "v Z1 Z2 / (Z1 + Z2) / K",
        pressure / K,
@@ -62,19 +69,19 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
                  text("about %.0f %%; what follows less", 150. * pressure / K)
            : "an equation of state is needed"});
   if (pressure / K >= 0.3)
-    for (const BodyFacts *const body : {&p, &t})
-      if (!body->has_equation_of_state && !body->is_rigid)
+    for (const PlannedBody *const body : {&p, &t})
+      if (body->facts.deforms && !body->facts.material->has_equation_of_state())
         plan.warnings.push_back("body \"" + body->name +
                                 "\" is shocked beyond a linear law, but its "
                                 "material \"" +
-                                body->material + "\" has no equation of state");
+                                body->facts.material->name +
+                                "\" has no equation of state");
 
-  const double yield = std::min(p.yield_stress, t.yield_stress);
-  if (yield < never)
+  if (p.yield_stress || t.yield_stress)
   {
-    const double damage =
-        p.density * impact.speed * impact.speed / p.yield_stress;
-    if (p.yield_stress < never)
+    const double dynamic = of_p.density() * impact.speed * impact.speed;
+    const double damage = p.yield_stress ? dynamic / *p.yield_stress : 0.;
+    if (p.yield_stress)
       plan.numbers.push_back({"dynamic pressure over the projectile's yield",
                               "rho v^2 / Y", damage,
                               damage < 0.1 ? "the projectile stays elastic: a "
@@ -83,10 +90,9 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
                                   ? "the projectile yields a little"
                                   : "the projectile deforms much and must be "
                                     "deformable"});
-    else if (t.yield_stress < never)
+    else
     {
-      const double over =
-          p.density * impact.speed * impact.speed / t.yield_stress;
+      const double over = dynamic / *t.yield_stress;
       if (over > 10.)
         plan.warnings.push_back(
             "body \"" + p.name + "\" never yields, though rho v^2 is " +
@@ -96,7 +102,7 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
     }
   }
 
-  for (const double component : t.velocity)
+  for (const double component : t.facts.velocity)
     if (component != 0.)
       return; // no target at rest with a far boundary and a rear face
   // How far a wave gets, along the plate.
@@ -104,7 +110,8 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
   for (int d = 0; d < 3; ++d)
     if (d != impact.axis)
       far = std::max(far, 0.5 * (t.high[d] - t.low[d]));
-  const double trips = t.wave_speed * scene.settings.end_time / (2. * far);
+  const double trips =
+      of_t.sound_speed() * scene.settings.end_time / (2. * far);
   plan.numbers.push_back(
       {"round trips of waves to the far boundary", "c t / (2 L)", trips,
        trips < 1. ? "the boundary is not felt: body \"" + t.name +
@@ -127,8 +134,8 @@ void judge_zones_before(const Scene &scene, PhysicsPlan &plan)
 {
   for (const ZoneBox &zone : find_zones(scene))
   {
-    const BodyFacts &body = plan.bodies[zone.zone];
-    if (!plan.impact.exists || body.failure_strain == never)
+    const PlannedBody &body = plan.bodies[zone.zone];
+    if (!plan.impact.exists || !body.facts.failure_strain)
       continue;
     double half = never, spacing = 0.;
     for (int d = 0; d < 3; ++d)
@@ -144,7 +151,7 @@ void judge_zones_before(const Scene &scene, PhysicsPlan &plan)
     const double a = plan.impact.radius;
     const auto radius = [&](const double strain)
     { return a / std::sqrt(1. - std::exp(-std::sqrt(3.) * strain)); };
-    const double needed = radius(body.failure_strain) + 2. * spacing;
+    const double needed = radius(*body.facts.failure_strain) + 2. * spacing;
     plan.numbers.push_back(
         {"zone \"" + body.name + "\" over the region of failure",
          "half width / (a / sqrt(1 - exp(-sqrt(3) eps_f)) + 2 h)",
@@ -171,8 +178,8 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
     self_contact = self_contact || coupling->kind() == "self-contact";
     contact = contact || coupling->kind() == "contact";
   }
-  for (const BodyFacts &body : plan.bodies)
-    if (body.is_spg && body.failure_strain < never && !self_contact)
+  for (const PlannedBody &body : plan.bodies)
+    if (body.facts.is_particles && body.facts.may_fail && !self_contact)
       plan.warnings.push_back("bonds of \"" + body.name +
                               "\" may fail, but the scene has no self-contact: "
                               "debris will pass through itself");
@@ -182,7 +189,7 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
   if (!plan.impact.exists)
     return;
   // Symmetry about the line of flight, by boxes and velocities.
-  const BodyFacts &p = plan.bodies[plan.impact.projectile];
+  const PlannedBody &p = plan.bodies[plan.impact.projectile];
   std::string axes;
   for (int d = 0; d < 3; ++d)
   {
@@ -190,8 +197,8 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
       continue;
     const double centre = 0.5 * (p.low[d] + p.high[d]);
     bool symmetric = true;
-    for (const BodyFacts &body : plan.bodies)
-      symmetric = symmetric && body.velocity[d] == 0. &&
+    for (const PlannedBody &body : plan.bodies)
+      symmetric = symmetric && body.facts.velocity[d] == 0. &&
                   std::abs(0.5 * (body.low[d] + body.high[d]) - centre) <
                       1e-6 * (body.high[d] - body.low[d]);
     if (symmetric)
@@ -205,7 +212,7 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
 }
 } // namespace
 
-PhysicsPlan plan_physics(Scene &scene)
+PhysicsPlan plan_physics(const Scene &scene)
 {
   PhysicsPlan plan;
   plan.bodies = find_body_facts(scene);

@@ -1,14 +1,15 @@
-#include "sabot/base/parameter_file.h"
-#include "sabot/output/file_tools.h"
+// What result.json says of a run.
+#include "sabot/simulation/run_result.h"
+
 #include "sabot/simulation/run.h"
-#include "sabot/simulation/zone_verdict.h"
+
+#include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 namespace sabot
 {
@@ -61,6 +62,13 @@ ordered_json zone_results(const std::vector<ZoneVerdict> &verdicts)
   return zones;
 }
 
+/** A measure's name as a key. */
+std::string json_key(std::string name)
+{
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
 /** How many pieces there are, and the heaviest; nothing for a body that cannot
     come apart. Collective. */
 void add_fragments(const Body &body, ordered_json &result)
@@ -82,61 +90,7 @@ void add_fragments(const Body &body, ordered_json &result)
   }
 }
 
-/** Every entry that trades speed for accuracy, as it is in force. */
-ordered_json knob_results(const Parameters &prm)
-{
-  static const std::vector<std::string>
-      of_bodies = {"Discretization",
-                   "Nodal spacing",
-                   "Size",
-                   "Cell size",
-                   "Coarsest cell size",
-                   "Growth ratio",
-                   "Core radius",
-                   "Refined zone size",
-                   "Sector",
-                   "Symmetry faces",
-                   "Integration",
-                   "Inversion",
-                   "Erosion plastic strain",
-                   "Erosion damage",
-                   "Erosion step",
-                   "Normalised support size",
-                   "Kernel update interval",
-                   "Failure check interval",
-                   "Stabilisation coefficient",
-                   "Hourglass control",
-                   "Hourglass coefficient",
-                   "Linear bulk viscosity",
-                   "Quadratic bulk viscosity",
-                   "Mass scaling"},
-      of_couplings = {"Type", "Stiffness scale", "Damping fraction",
-                      "Contact distance", "Tolerance"};
-  std::ostringstream text;
-  print_parameters(prm, "json", text);
-  const ordered_json tree = ordered_json::parse(text.str());
-  ordered_json knobs = ordered_json::object();
-  const auto value = [](const ordered_json &node, const std::string &entry)
-  { return node[entry].value("value", ""); };
-  for (const char *const entry :
-       {"Step factor", "Largest step", "List of couplings"})
-    knobs[entry] = value(tree, entry);
-  const auto collect = [&](const std::string &section, const std::string &list,
-                           const std::vector<std::string> &entries)
-  {
-    for (const std::string &name : split_names(value(tree, list)))
-      for (const std::string &entry : entries)
-        if (tree[section][name].contains(entry))
-          knobs[section + "/" + name + "/" + entry] =
-              value(tree[section][name], entry);
-  };
-  collect("Bodies", "List of bodies", of_bodies);
-  collect("Couplings", "List of couplings", of_couplings);
-  return knobs;
-}
-} // namespace
-
-ordered_json Run::body_results() const
+ordered_json body_results(const Scene &scene)
 {
   ordered_json bodies = ordered_json::object();
   for (const auto &body : scene.bodies)
@@ -152,9 +106,7 @@ ordered_json Run::body_results() const
     {
       if (m.name.compare(0, 9, "velocity ") == 0)
         continue;
-      std::string key = m.name;
-      std::replace(key.begin(), key.end(), ' ', '_');
-      b[key] = number(m.value);
+      b[json_key(m.name)] = number(m.value);
     }
     b["bonds_broken_fraction"] = number(measures.bonds_broken_fraction);
     b["eroded_mass"] = number(measures.eroded_mass);
@@ -164,7 +116,8 @@ ordered_json Run::body_results() const
   return bodies;
 }
 
-ordered_json Run::timer_results() const
+ordered_json timer_results(const Scene &scene, const Timers &timers,
+                           const int n_ranks)
 {
   ordered_json result = ordered_json::object();
   for (const auto &[name, phase] : timers.all())
@@ -189,96 +142,78 @@ ordered_json Run::timer_results() const
   return result;
 }
 
-void Run::write_result(const std::string &status, const std::string &reason)
+/** Deepest penetration of all contacts, and where each coupling's energy
+    went. */
+void add_couplings(const Scene &scene, ordered_json &r)
 {
-  const Measures values = quantities();
-  ordered_json r;
-  r["title"] = scene.settings.title;
-  r["version"] = version();
-  r["status"] = status;
-  r["reason"] = reason;
-  r["ranks"] = n_ranks;
-  r["steps"] = stepper.steps();
-  r["time"] = stepper.time();
-  r["wall_seconds"] = elapsed_seconds();
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  double sums[2] = {cpu_seconds(usage), 1024. * usage.ru_maxrss};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
-  r["cpu_seconds"] = sums[0];
-  r["peak_memory_bytes"] = static_cast<std::int64_t>(sums[1]);
-  r["energy_residual_max"] = number(largest_residual);
-  r["momentum_residual_max"] =
-      scene.is_free ? number(largest_momentum_residual) : ordered_json(nullptr);
-  r["stable_step_min"] =
-      stepper.steps() > 0 ? number(smallest_step) : ordered_json(nullptr);
-  r["bodies"] = body_results();
-  r["quantities"] = ordered_json::object();
-  for (const Measure &m : values)
-    r["quantities"][m.name] = {{"value", number(m.value)}, {"unit", m.unit}};
-  r["energy"] = ordered_json::object();
-  for (const Measure &m : ledger)
-    if (m.unit == "J")
-      r["energy"][m.name] = number(m.value);
-  r["timers"] = timer_results();
   double penetration = 0., initial = 0.;
+  ordered_json couplings = ordered_json::object();
   for (const auto &coupling : scene.couplings)
+  {
+    ordered_json &entry = couplings[coupling->name];
+    entry["type"] = coupling->kind();
     for (const Measure &m : coupling->measure())
     {
       if (m.name == "penetration max over spacing")
         penetration = std::max(penetration, m.value);
       if (m.name == "initial penetration over spacing")
         initial = std::max(initial, m.value);
+      entry[json_key(m.name)] = number(m.value);
     }
+  }
   r["contact"] = {{"penetration_max_over_spacing", number(penetration)},
                   {"initial_penetration_over_spacing", number(initial)}};
-  // Where energy went between the bodies: contact and friction of each.
-  r["couplings"] = ordered_json::object();
-  for (const auto &coupling : scene.couplings)
-  {
-    ordered_json &entry = r["couplings"][coupling->name];
-    entry["type"] = coupling->kind();
-    for (const Measure &m : coupling->measure())
-    {
-      std::string key = m.name;
-      std::replace(key.begin(), key.end(), ' ', '_');
-      entry[key] = number(m.value);
-    }
-  }
-  const std::vector<ZoneVerdict> zones =
-      judge_zones(scene, timers, stepper.steps(), communicator);
+  r["couplings"] = couplings;
+}
+
+/** Processor time and memory of all ranks. */
+void add_resources(ordered_json &r, MPI_Comm communicator)
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  double sums[2] = {cpu_seconds(usage), 1024. * usage.ru_maxrss};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
+  r["cpu_seconds"] = sums[0];
+  r["peak_memory_bytes"] = static_cast<std::int64_t>(sums[1]);
+}
+} // namespace
+
+ordered_json make_result(const Scene &scene, const RunSummary &summary,
+                         const Balance &balance, const Timers &timers,
+                         const std::vector<ZoneVerdict> &zones,
+                         MPI_Comm communicator)
+{
+  ordered_json r;
+  r["title"] = scene.settings.title;
+  r["version"] = version();
+  r["status"] = summary.status;
+  r["reason"] = summary.reason;
+  r["ranks"] = summary.n_ranks;
+  r["steps"] = summary.steps;
+  r["time"] = summary.time;
+  r["wall_seconds"] = summary.wall_seconds;
+  add_resources(r, communicator);
+  r["energy_residual_max"] = number(balance.largest_residual());
+  r["momentum_residual_max"] = scene.is_free
+                                   ? number(balance.largest_momentum_residual())
+                                   : ordered_json(nullptr);
+  r["stable_step_min"] =
+      summary.steps > 0 ? number(summary.smallest_step) : ordered_json(nullptr);
+  r["bodies"] = body_results(scene);
+  r["quantities"] = ordered_json::object();
+  for (const auto &quantity : scene.quantities)
+    r["quantities"][quantity->name] = {{"value", number(quantity->value())},
+                                       {"unit", quantity->unit()}};
+  r["energy"] = ordered_json::object();
+  for (const Measure &m : balance.row())
+    if (m.unit == "J")
+      r["energy"][m.name] = number(m.value);
+  r["timers"] = timer_results(scene, timers, summary.n_ranks);
+  add_couplings(scene, r);
   r["zone"] = zone_results(zones);
-  r["knobs"] = knob_results(scene.prm);
-
-  std::string problem;
-  if (rank == 0)
-    try
-    {
-      write_text(folder + "/result.json", r.dump(2) + "\n");
-    }
-    catch (const IOError &e)
-    {
-      problem = e.what();
-    }
-  int bad = !problem.empty();
-  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
-  if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not write its output"
-                                  : problem);
-
-  char text[200];
-  std::snprintf(text, sizeof(text),
-                "%s: %u steps to %.4e s in %.1f s; energy residual %.2e",
-                status.c_str(), stepper.steps(), stepper.time(),
-                r["wall_seconds"].get<double>(), largest_residual);
-  log.line(text);
-  for (const ZoneVerdict &zone : zones)
-    log.line("  " + describe(zone));
-  for (const Measure &m : values)
-  {
-    std::snprintf(text, sizeof(text), "  %s: %.6g %s", m.name.c_str(), m.value,
-                  m.unit.c_str());
-    log.line(text);
-  }
+  r["knobs"] = ordered_json::object();
+  for (const auto &[path, value] : scene.knobs())
+    r["knobs"][path] = value;
+  return r;
 }
 } // namespace sabot

@@ -4,7 +4,6 @@
 #include "sabot/couplings/particle_contact.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
-#include "sabot/geometry/partition.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -15,28 +14,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double seen_from_outside = 1e-9;
-
-/** Bodies overlap when a node of one lies deep inside the other's shape; for
-    the boxes and cylinders of a scene their bounding boxes tell enough, but
-    for a zone and the body that it was carved from, and for what is tied. */
-struct Bounds
-{
-  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
-};
-
-Bounds bounds_of(const Body &body)
-{
-  Bounds b;
-  for (const auto &p : body.partition_points())
-    for (int d = 0; d < 3; ++d)
-    {
-      b.low[d] = std::min(b.low[d], p[d]);
-      b.high[d] = std::max(b.high[d], p[d]);
-    }
-  return b;
-}
-
 bool has_particles(const Body &body)
 {
   return body.particles() != nullptr;
@@ -77,57 +54,7 @@ std::vector<std::pair<int, int>> pairs_of(const std::vector<int> &members,
 }
 } // namespace
 
-void Scene::check_overlaps() const
-{
-  std::set<std::pair<std::string, std::string>> excused;
-  for (const auto &body : bodies)
-  {
-    const std::string from =
-        file.value("Bodies/" + body->name + "/Carve from", "");
-    excused.insert({body->name, from});
-    excused.insert({from, body->name});
-  }
-  // Boxes around two sides of a curved tie overlap.
-  for (const std::string &name : split_names(prm.get("List of couplings")))
-  {
-    const std::string path = "Couplings/" + name;
-    const std::string follower = file.value(path + "/Follower", ""),
-                      leader = file.value(path + "/Leader", "");
-    const auto is_filled = [&](const std::string &body)
-    {
-      const std::string entry = "Bodies/" + body + "/Geometry";
-      return make_shape(entry, file.value(entry, "box"))->fills_bounds();
-    };
-    if (file.value(path + "/Type", "") == "tie" &&
-        !(is_filled(follower) && is_filled(leader)))
-    {
-      excused.insert({follower, leader});
-      excused.insert({leader, follower});
-    }
-  }
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      if (excused.count({bodies[i]->name, bodies[j]->name}) > 0)
-        continue;
-      const Bounds a = bounds_of(*bodies[i]), b = bounds_of(*bodies[j]);
-      double overlap = 1e300, size = 1e300;
-      for (int d = 0; d < 3; ++d)
-      {
-        overlap = std::min(overlap, std::min(a.high[d], b.high[d]) -
-                                        std::max(a.low[d], b.low[d]));
-        size = std::min({size, a.high[d] - a.low[d], b.high[d] - b.low[d]});
-      }
-      if (overlap > 1e-6 * size + seen_from_outside)
-        throw InputError("Bodies/" + bodies[i]->name + "/Centre",
-                         "bodies \"" + bodies[i]->name + "\" and \"" +
-                             bodies[j]->name + "\" overlap by " +
-                             std::to_string(overlap * 1e3) +
-                             " mm; move one of them apart");
-    }
-}
-
-void Scene::build_couplings()
+void Scene::build_couplings(const ParameterFile &)
 {
   const std::vector<Body *> pointers = body_pointers();
   std::set<std::pair<int, int>> tied;     // follower, leader
@@ -252,94 +179,10 @@ void Scene::build_couplings()
   for (auto &tie : ties)
     couplings.push_back(std::move(tie));
 
-  for (const auto &body : bodies)
-  {
-    const std::string from =
-        file.value("Bodies/" + body->name + "/Carve from", "");
-    if (!from.empty() &&
-        tied.count({body->id, body_index("Bodies", from)}) == 0)
-      warnings.push_back("body \"" + body->name + "\" is carved from \"" +
-                         from + "\" but not tied to it");
-  }
-}
-
-void Scene::build_outputs()
-{
-  for (const std::string &name : split_names(prm.get("List of outputs")))
-  {
-    prm.enter_subsection("Outputs");
-    prm.enter_subsection(name);
-    outputs.push_back({name,
-                       prm.get("Type") == "VTU" ? OutputSettings::Type::vtu
-                                                : OutputSettings::Type::history,
-                       get_quantity(prm, "Interval")});
-    prm.leave_subsection();
-    prm.leave_subsection();
-  }
-}
-
-void Scene::build_quantities()
-{
-  for (const std::string &name : split_names(prm.get("List of quantities")))
-  {
-    const std::string path = "Quantities/" + name;
-    prm.enter_subsection("Quantities");
-    prm.enter_subsection(name);
-    QuantityOfInterest quantity;
-    quantity.name = name;
-    const std::string type = prm.get("Type");
-    using Type = QuantityOfInterest::Type;
-    quantity.type = type == "velocity"            ? Type::velocity
-                    : type == "penetration depth" ? Type::penetration_depth
-                    : type == "length"            ? Type::length
-                                                  : Type::radius;
-    quantity.body = body_index(path + "/Body", prm.get("Body"));
-    const std::vector<double> d = get_quantities(prm, "Direction");
-    const Vec direction = vec(d[0], d[1], d[2]);
-    int n_axes = 0;
-    for (const double component : d)
-      n_axes += component != 0.;
-    if (norm(direction) == 0. ||
-        (quantity.type != Type::velocity && n_axes != 1))
-      throw InputError(path + "/Direction",
-                       "give a vector that is not zero and, but for a "
-                       "velocity, points along x, y or z");
-    quantity.direction = (1. / norm(direction)) * direction;
-    quantity.origin = get_quantity(prm, "Origin");
-    const std::string planes = file.value(
-        "Bodies/" + bodies[quantity.body]->name + "/Symmetry faces", "");
-    for (const std::string &plane : split_names(planes))
-      for (int d = 0; d < 3; ++d)
-        if (plane.size() == 2 && plane[1] == "xyz"[d])
-          quantity.whole[d] = 2.;
-    quantities.push_back(quantity);
-    prm.leave_subsection();
-    prm.leave_subsection();
-  }
-}
-
-void Scene::distribute()
-{
-  std::vector<std::array<double, 3>> points;
-  std::vector<float> weights;
-  for (const auto &body : bodies)
-  {
-    const auto &p = body->partition_points();
-    points.insert(points.end(), p.begin(), p.end());
-    weights.insert(weights.end(), p.size(), body->partition_weight());
-  }
-  const std::vector<int> owner = partition(points, weights, communicator);
-  std::size_t first = 0;
-  for (const auto &body : bodies)
-  {
-    const std::size_t n = body->partition_points().size();
-    body->node_owner.assign(owner.begin() + first, owner.begin() + first + n);
-    first += n;
-    body->distribute(body->node_owner, communicator);
-  }
-  // Ties first: contact wants to know who follows whom.
-  for (auto coupling = couplings.rbegin(); coupling != couplings.rend();
-       ++coupling)
-    (*coupling)->initialize();
+  for (const CarvedZone &zone : zones)
+    if (tied.count({zone.zone, zone.host}) == 0)
+      warnings.push_back("body \"" + bodies[zone.zone]->name +
+                         "\" is carved from \"" + bodies[zone.host]->name +
+                         "\" but not tied to it");
 }
 } // namespace sabot

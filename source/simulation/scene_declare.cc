@@ -1,9 +1,5 @@
 // What a scene file may set: every entry with its meaning.
-#include "sabot/base/parameters.h"
-#include "sabot/bodies/fem/fem_body.h"
-#include "sabot/bodies/rigid/rigid_body.h"
-#include "sabot/bodies/spg/spg_body.h"
-#include "sabot/output/output.h"
+#include "sabot/bodies/discretization.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -13,7 +9,6 @@ namespace sabot
 {
 namespace
 {
-
 const Pattern names = name_list();
 
 void declare_top(Parameters &prm)
@@ -21,11 +16,11 @@ void declare_top(Parameters &prm)
   prm.declare_entry("Title", "", any_text(), "What the scene shows; one line.");
   prm.declare_entry("End time", "0.1 ms", quantity(Dimension::time, 1e-12, 1e3),
                     "Physical time at which the run ends.");
-  prm.declare_entry("Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
-                    "Step over the least stable step of bodies and "
-                    "couplings; above 1 the run is expected to be caught.");
-  prm.declare_entry("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
-                    "Upper bound of the step.");
+  prm.declare_knob("Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
+                   "Step over the least stable step of bodies and "
+                   "couplings; above 1 the run is expected to be caught.");
+  prm.declare_knob("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
+                   "Upper bound of the step.");
   prm.declare_entry("Energy residual limit", "0.05",
                     quantity(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
@@ -42,26 +37,16 @@ void declare_top(Parameters &prm)
                     "time.");
   prm.declare_entry("List of bodies", "", names,
                     "Names of the bodies, in order.");
-  prm.declare_entry("List of couplings", "", names, "Names of the couplings.");
+  prm.declare_knob("List of couplings", "", names, "Names of the couplings.");
   prm.declare_entry("List of outputs", "", names, "Names of the outputs.");
   prm.declare_entry("List of quantities", "", names,
                     "Names of the quantities of interest in result.json.");
 }
 
-/** The names of a shape's faces; nothing for one that is not there, of which
-    reading the file will tell. */
-std::string face_names(const std::string &geometry)
-{
-  const auto *const shape = Registry<Shape>::find(geometry);
-  return shape == nullptr ? "" : shape->make()->face_names();
-}
-
 void declare_body(Parameters &prm, const std::string &discretization,
                   const std::string &geometry)
 {
-  prm.declare_entry("Discretization", "FEM", one_of("FEM|SPG|rigid"),
-                    "FEM: hexahedra; SPG: smoothed-particle-Galerkin "
-                    "particles; rigid: hexahedra that do not deform.");
+  Registry<Discretization>::declare_choice(prm, "Discretization", "FEM", "");
   Registry<Shape>::declare_choice(
       prm, "Geometry", "box",
       "Shape of the body, with the same entries for FEM, SPG and rigid "
@@ -75,60 +60,11 @@ void declare_body(Parameters &prm, const std::string &discretization,
                     quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
   Registry<Shape>::declare_entries(prm, geometry);
-  if (discretization == "rigid")
-  {
-    prm.declare_entry("Cell size", "1 mm",
-                      quantity(Dimension::length, 1e-9, 1e2),
-                      "Edge of the cells, whose outer faces are the surface.");
-    RigidOptions::declare_parameters(prm);
-    return;
-  }
-  prm.declare_entry("Symmetry faces", "", names,
-                    std::string("Plane faces on which the model is cut: no "
-                                "velocity across them, no contact with them. "
-                                "Among ") +
-                        face_names(geometry) + ".");
-  if (discretization == "SPG")
-  {
-    prm.declare_entry("Nodal spacing", "1 mm",
-                      quantities(Dimension::length, 1, 3, 1e-9, 1e2),
-                      "Distance of neighbouring particles; of a box the "
-                      "nearest value that divides each edge, one for all or "
-                      "three, one per axis. In other shapes particles are the "
-                      "nodes of hexahedra with cells of this size.");
-    prm.declare_entry("Carve from", "", any_text(),
-                      "A FEM body whose cells inside this box or cylinder give "
-                      "way to the particles. A box in a box has a lattice of "
-                      "its own, around which the body is meshed; else the "
-                      "nodes of the cells become the particles. Add a tie to "
-                      "join the two.");
-    prm.declare_entry("Clamped faces", "", names,
-                      "Faces held fixed, among " + face_names(geometry) +
-                          "; in a zone with the cells of another body among "
-                          "that body's, as for symmetry faces.");
-    SpgOptions::declare_parameters(prm);
-  }
-  else
-  {
-    prm.declare_entry("Cell size", "1 mm",
-                      quantity(Dimension::length, 1e-9, 1e2),
-                      "Edge of the cells; next to a carved zone, where the "
-                      "mesh is graded.");
-    if (const auto *const shape = Registry<Shape>::find(geometry))
-      shape->make()->declare_grading(prm);
-    prm.declare_entry("Clamped faces", "", names,
-                      "Faces held fixed, among " + face_names(geometry) + ".");
-    prm.declare_entry("Driven faces", "", names,
-                      "Faces whose nodes move with the prescribed velocity; "
-                      "the work done on them counts as external.");
-    prm.declare_entry("Prescribed velocity", "0 m/s, 0 m/s, 0 m/s",
-                      quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
-                      "Constant velocity of the driven faces.");
-    prm.declare_entry("Prescribed components", "x, y, z", names,
-                      "Components of the prescribed velocity that count; the "
-                      "others are free.");
-    FemOptions::declare_parameters(prm);
-  }
+  // Of a shape that there is not reading the file will tell.
+  const auto *const chosen = Registry<Shape>::find(geometry);
+  const auto shape = chosen == nullptr ? nullptr : chosen->make();
+  if (const auto *const d = Registry<Discretization>::find(discretization))
+    d->make()->declare(prm, shape.get());
 }
 
 void declare_coupling(Parameters &prm, const std::string &type)
@@ -176,21 +112,10 @@ void declare_coupling(Parameters &prm, const std::string &type)
                       "it was met closer.");
 }
 
-void declare_quantity(Parameters &prm)
+void declare_quantity(Parameters &prm, const std::string &type)
 {
-  prm.declare_entry(
-      "Type", "velocity", one_of("velocity|penetration depth|length|radius"),
-      "velocity: of the body's centre of mass along the direction; "
-      "penetration depth: how far the body reaches beyond the origin along "
-      "the direction; length, radius: extent along the direction, half extent "
-      "across it, of the whole where planes of symmetry cut the body.");
-  prm.declare_entry("Body", "", any_text(), "Name of the body.");
-  prm.declare_entry("Direction", "0, 0, 1",
-                    quantities(Dimension::none, 3, 3, -1e3, 1e3),
-                    "A vector along an axis; its length does not matter.");
-  prm.declare_entry("Origin", "0 m", quantity(Dimension::length, -1e3, 1e3),
-                    "Coordinate along the direction from which a penetration "
-                    "depth counts.");
+  Registry<QuantityOfInterest>::declare_choice(prm, "Type", "velocity", "");
+  Registry<QuantityOfInterest>::declare_entries(prm, type);
 }
 } // namespace
 
@@ -246,10 +171,14 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
                                      equation_of_state);
          Material::declare_parameters(prm, model, equation_of_state);
        });
+  // Every pair of a shape and a discretization would say all entries of both
+  // many times: each once, with a box or as finite elements, says all.
   std::vector<std::string> bodies;
   for (const auto &shape : Registry<Shape>::entries())
     bodies.push_back("<FEM " + shape.name + ">");
-  bodies.push_back("<SPG box>");
+  for (const auto &d : Registry<Discretization>::entries())
+    if (d.name != "FEM")
+      bodies.push_back("<" + d.name + " box>");
   each("Bodies", bodies,
        [&](const std::string &path, const std::string &name)
        {
@@ -275,6 +204,10 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
              prm, file == nullptr ? "" : read(path + "/Type", "VTU"));
        });
   each("Quantities", {"<name>"},
-       [&](const auto &, const auto &) { declare_quantity(prm); });
+       [&](const std::string &path, const auto &)
+       {
+         declare_quantity(
+             prm, file == nullptr ? "" : read(path + "/Type", "velocity"));
+       });
 }
 } // namespace sabot

@@ -161,7 +161,8 @@ TEST(Spg, longitudinal_frequency_of_a_free_bar)
     time += dt;
     last = now;
   }
-  const double exact = 1.25 * 2. * L / std::sqrt(68.9e9 / 2700.);
+  const double exact =
+      1.25 * 2. * L / std::sqrt(aluminum().young_modulus / aluminum().density);
   EXPECT_NEAR(crossing, exact, 0.02 * exact);
 }
 
@@ -201,10 +202,8 @@ TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
 {
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.2;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e6, 150e6, 1.});
+  options.set_critical_plastic_strain(0.2);
+  const auto metal = hardening_aluminum();
   SpgBody &body =
       add_block(world, {{10e-3, 3e-3, 3e-3}}, 1e-3, 0., options, metal);
   NodalState &n = body.nodes();
@@ -250,7 +249,7 @@ struct BreakingBlock
                          const double critical_stretch)
   {
     SpgOptions options;
-    options.critical_effective_plastic_strain = 0.45;
+    options.set_critical_plastic_strain(0.45);
     options.critical_stretch = critical_stretch;
     options.failure_check_interval = 1;
     options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
@@ -291,9 +290,7 @@ struct BreakingBlock
 
 TEST(Spg, forces_and_ledger_lose_failed_bonds_at_once)
 {
-  const auto strong = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e9, 150e6, 1.});
+  const auto strong = hardening_aluminum(1e3 * aluminum_yield_stress(), 150e6);
   double error[2], force_after[2] = {1., 1.}, failure[2], internal[2];
   for (int i = 0; i < 2; ++i)
   {
@@ -346,7 +343,7 @@ struct Energies
 TEST(Spg, a_torn_particle_does_not_flow)
 {
   World world;
-  SpgBody &body = add_sheet(world, aluminium_6061());
+  SpgBody &body = add_sheet(world, metal("al6061-t6"));
   deform(body, Mat::identity(), 0.);
   for (int step = 1; step <= 20; ++step)
     deform(
@@ -372,11 +369,10 @@ TEST(Spg, cracks_open_before_the_rest_flows)
   // uniaxial stress -Y along y. The deviator's trial value there is
   // -2 (Y/3 + G d), held (with the mean) by -2/3 Y - 2 G d: of the work Y d
   //   Y (2/3 d - Y/(9 G)) is plastic and Y (d/3 + Y/(9 G)) opens cracks.
-  const double Y = 324e6, d = 0.02, G = 68.9e9 / (2. * 1.33);
+  const double Y = aluminum_yield_stress(), d = 0.02,
+               G = aluminum().shear_modulus();
   World world;
-  SpgBody &body = add_sheet(world, std::make_shared<HardeningPlasticity>(
-                                       ElasticConstants{2700., 68.9e9, 0.33},
-                                       HardeningParameters{Y, 0., 1.}));
+  SpgBody &body = add_sheet(world, hardening_aluminum(Y, 0.));
   deform(body, Mat::identity(), 0.);
   const auto stretch = [&](const int step)
   {

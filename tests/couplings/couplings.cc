@@ -119,12 +119,10 @@ TEST(Tie, leaders_do_not_feel_bonds_that_failed)
   add_fem(world,
           make_graded_box(box({{4e-3, 4e-3, 4e-3}}, {{-2e-3, 0, 0}}, 1e-3)));
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.45;
+  options.set_critical_plastic_strain(0.45);
   options.critical_stretch = 1.005;
   options.failure_check_interval = 1;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{324e9, 150e6, 1.});
+  const auto metal = hardening_aluminum(1e3 * aluminum_yield_stress(), 150e6);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "spg", 1, make_box_cloud({{2e-3, 0, 0}}, {{4e-3, 4e-3, 4e-3}}, 1e-3),
       metal, options));
@@ -321,10 +319,8 @@ TEST(SelfContact, two_failed_particles_meet_and_part)
   // when a bond of theirs failed; a pair is made here by pulling one apart.
   World world;
   SpgOptions options;
-  options.critical_effective_plastic_strain = 0.01;
-  const auto metal = std::make_shared<HardeningPlasticity>(
-      ElasticConstants{2700., 68.9e9, 0.33},
-      HardeningParameters{100e6, 0., 1.});
+  options.set_critical_plastic_strain(0.01);
+  const auto metal = hardening_aluminum(100e6, 0.);
   world.bodies.push_back(std::make_unique<SpgBody>(
       "bar", 0, make_box_cloud({{0, 0, 0}}, {{8e-3, 2e-3, 2e-3}}, 1e-3), metal,
       options));

@@ -1,4 +1,5 @@
 #include "point.h"
+#include "verification/metals.h"
 
 #include <gtest/gtest.h>
 
@@ -7,19 +8,33 @@ namespace
 using namespace sabot;
 
 // Almost a fluid, so that pressure is all there is.
-const ElasticConstants fluid{2700., 1e3, 0.49};
-const MieGruneisenParameters aluminium{2700., 5386., 1.339, 1.99, 0.};
-
-std::shared_ptr<const EquationOfState>
-mie_gruneisen(const MieGruneisenParameters &p = aluminium)
+ElasticConstants fluid()
 {
-  return std::make_shared<MieGruneisen>(p);
+  return {aluminum().density, 1e3, 0.49};
+}
+
+const MieGruneisenParameters &shock_data()
+{
+  static const auto data = mie_gruneisen_parameters("al6061-t6-eos");
+  return data;
+}
+
+std::shared_ptr<const EquationOfState> mie_gruneisen()
+{
+  return std::make_shared<MieGruneisen>(shock_data());
+}
+
+/** rho_0 c_0^2 [Pa]. */
+double bulk_modulus(const MieGruneisenParameters &p)
+{
+  return p.density * p.sound_speed * p.sound_speed;
 }
 
 double hugoniot(const double eta)
 {
-  const double D = 1. - 1.339 * eta;
-  return 2700. * 5386. * 5386. * eta / (D * D);
+  const MieGruneisenParameters &p = shock_data();
+  const double D = 1. - p.shock_slope * eta;
+  return bulk_modulus(p) * eta / (D * D);
 }
 
 double pressure(const Point &point)
@@ -47,7 +62,7 @@ TEST(MieGruneisen, along_the_rayleigh_line_ends_on_the_hugoniot)
 {
   // A steady shock: p + q is linear in the volume; its end has p = p_H and
   // e = p_H eta/(2 rho_0) whatever Gamma (Rankine and Hugoniot).
-  const Elastic law(fluid, mie_gruneisen());
+  const Elastic law(fluid(), mie_gruneisen());
   for (const double eta : {0.02, 0.1, 0.3})
   {
     Point point(law);
@@ -56,21 +71,24 @@ TEST(MieGruneisen, along_the_rayleigh_line_ends_on_the_hugoniot)
            [&](const double J)
            { return end * (1. - J) / eta - pressure(point); });
     EXPECT_NEAR(pressure(point), end, 1e-3 * end);
-    EXPECT_NEAR(point.state[0], end * eta / (2. * 2700.),
-                1e-3 * end * eta / (2. * 2700.));
+    EXPECT_NEAR(point.state[0], end * eta / (2. * aluminum().density),
+                1e-3 * end * eta / (2. * aluminum().density));
   }
 }
 
 TEST(MieGruneisen, compression_and_release_are_an_isentrope)
 {
   // de = -p dv, by RK4 with 100 times the steps.
-  const Elastic law(fluid, mie_gruneisen());
-  const auto p_of = [](const double J, const double e)
+  const Elastic law(fluid(), mie_gruneisen());
+  const MieGruneisenParameters &data = shock_data();
+  const double rho = data.density;
+  const auto p_of = [&](const double J, const double e)
   {
     const double eta = 1. - J;
-    const double cold = eta > 0. ? hugoniot(eta) * (1. - 0.5 * 1.99 * eta)
-                                 : 2700. * 5386. * 5386. * (1. / J - 1.);
-    return cold + 1.99 * 2700. * e;
+    const double cold = eta > 0.
+                            ? hugoniot(eta) * (1. - 0.5 * data.gruneisen * eta)
+                            : bulk_modulus(data) * (1. / J - 1.);
+    return cold + data.gruneisen * rho * e;
   };
   const auto isentrope = [&](double J, double e, const double end)
   {
@@ -79,7 +97,7 @@ TEST(MieGruneisen, compression_and_release_are_an_isentrope)
     for (int i = 0; i < n; ++i, J += h)
     {
       const auto f = [&](const double v, const double u)
-      { return -p_of(v, u) / 2700.; };
+      { return -p_of(v, u) / rho; };
       const double a = f(J, e), b = f(J + 0.5 * h, e + 0.5 * h * a),
                    c = f(J + 0.5 * h, e + 0.5 * h * b), d = f(J + h, e + h * c);
       e += h / 6. * (a + 2. * b + 2. * c + d);
@@ -102,14 +120,17 @@ TEST(MieGruneisen, compression_and_release_are_an_isentrope)
          [&](const double J)
          { return end * (1. - J) / eta - pressure(shocked); });
   strain(shocked, 1.02, 800, no_viscosity);
-  const double left = isentrope(1. - eta, end * eta / (2. * 2700.), 1.02);
+  const double left =
+      isentrope(1. - eta, end * eta / (2. * aluminum().density), 1.02);
   EXPECT_NEAR(shocked.state[0], left, 1e-3 * left);
   EXPECT_GT(left, 0.);
 }
 
 TEST(MieGruneisen, stiffening_is_the_slope_of_the_isentrope)
 {
-  const Elastic law(fluid, mie_gruneisen({2700., 5386., 1.339, 1.99, 0.48}));
+  MieGruneisenParameters corrected = shock_data();
+  corrected.volume_correction = 0.48;
+  const Elastic law(fluid(), std::make_shared<MieGruneisen>(corrected));
   for (const double J : {1.05, 0.98, 0.8, 0.6})
   {
     Point point(law);
@@ -118,14 +139,14 @@ TEST(MieGruneisen, stiffening_is_the_slope_of_the_isentrope)
     const double change = -1e-5;
     strain(point, J + change, 1, no_viscosity);
     const double slope = -J * (pressure(point) - before) / change;
-    const double expected = slope / (2700. * 5386. * 5386.);
+    const double expected = slope / bulk_modulus(corrected);
     EXPECT_NEAR(modulus, expected, 1e-3 * expected) << J;
   }
 }
 
 TEST(MieGruneisen, extreme_volumes_keep_numbers)
 {
-  const Elastic law(fluid, mie_gruneisen());
+  const Elastic law(fluid(), mie_gruneisen());
   Point point(law);
   double last = 0.;
   for (const double J : {0.5, 0.27, 0.2, 0.1})
@@ -144,14 +165,16 @@ TEST(MieGruneisen, extreme_volumes_keep_numbers)
 TEST(MieGruneisen, energy_counts_the_work_of_the_deviator)
 {
   // Pure shear: no volume change, rho_0 e is the work.
-  const ElasticConstants metal{2700., 68.9e9, 0.33};
-  const HardeningPlasticity law(metal, {324e6, 150e6, 1.}, mie_gruneisen());
+  const HardeningPlasticity law(
+      aluminum(), {aluminum_yield_stress(), 150e6, 1.}, mie_gruneisen());
   Point point(law);
   for (int i = 0; i < 1000; ++i)
     point.step({0, 0, 0, 1e-4, 0, 0}, {0, 0, 0}, 1e-9);
   EXPECT_EQ(law.state_variables()[0].name, "specific internal energy");
   // det F departs from 1 by the squares of the strain increments.
-  EXPECT_NEAR(2700. * point.state[0], point.energy, 1e-3 * point.energy);
-  EXPECT_NEAR(pressure(point), 1.99 * point.energy, 1e-2 * pressure(point));
+  EXPECT_NEAR(aluminum().density * point.state[0], point.energy,
+              1e-3 * point.energy);
+  EXPECT_NEAR(pressure(point), shock_data().gruneisen * point.energy,
+              1e-2 * pressure(point));
 }
 } // namespace

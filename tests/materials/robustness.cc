@@ -1,13 +1,13 @@
 // Melt, rates from 1e-3 to 1e7 1/s, extreme strain: numbers stay numbers, the
 // yield stress is never negative and never exceeded.
 #include "point.h"
+#include "verification/metals.h"
 
 #include <gtest/gtest.h>
 
 namespace
 {
 using namespace sabot;
-const ElasticConstants aluminium{2700., 68.9e9, 0.33};
 
 struct Case
 {
@@ -18,17 +18,9 @@ struct Case
 
 std::vector<Case> laws(const double temperature)
 {
-  JohnsonCookParameters jc;
-  jc.A = 324e6;
-  jc.B = 114e6;
-  jc.n = 0.42;
-  jc.C = 0.002;
-  jc.m = 1.34;
-  jc.melt_temperature = 925.;
+  JohnsonCookParameters jc = johnson_cook_parameters("al6061-t6");
   jc.initial_temperature = temperature;
   jc.has_damage = true;
-  const double D[5] = {-0.77, 1.45, -0.47, 0., 1.6};
-  std::copy(D, D + 5, jc.D);
   ZerilliArmstrongParameters fcc;
   fcc.C0 = 65e6;
   fcc.C2 = 890e6;
@@ -50,40 +42,41 @@ std::vector<Case> laws(const double temperature)
   sg.pressure_coefficient = 65.2e-12;
   sg.temperature_coefficient = 6.16e-4;
   sg.melt_temperature = 1220.;
-  const ThermalParameters thermal{temperature, 896., 0.9};
+  const ThermalParameters thermal{temperature, jc.specific_heat, 0.9};
   std::vector<Case> cases;
   for (const bool gruneisen : {false, true})
   {
     std::shared_ptr<const EquationOfState> eos;
     if (gruneisen)
       eos = std::make_shared<MieGruneisen>(
-          MieGruneisenParameters{2700., 5386., 1.339, 1.99, 0.});
+          mie_gruneisen_parameters("al6061-t6-eos"));
     const std::string with = gruneisen ? " + Mie-Gruneisen" : "";
     cases.push_back(
         {"hardening" + with,
          std::make_shared<HardeningPlasticity>(
-             aluminium, HardeningParameters{324e6, 150e6, 0.5}, eos),
+             aluminum(),
+             HardeningParameters{aluminum_yield_stress(), 150e6, 0.5}, eos),
          1e10});
     cases.push_back({"johnson-cook" + with,
-                     std::make_shared<JohnsonCook>(aluminium, jc, eos), 5e9});
+                     std::make_shared<JohnsonCook>(aluminum(), jc, eos), 5e9});
     cases.push_back(
         {"fcc" + with,
          std::make_shared<ZerilliArmstrongFcc>(
-             aluminium, ZerilliArmstrongFlow<false>{fcc}, thermal, eos),
+             aluminum(), ZerilliArmstrongFlow<false>{fcc}, thermal, eos),
          2e10});
     cases.push_back(
         {"bcc" + with,
          std::make_shared<ZerilliArmstrongBcc>(
-             aluminium, ZerilliArmstrongFlow<true>{bcc}, thermal, eos),
+             aluminum(), ZerilliArmstrongFlow<true>{bcc}, thermal, eos),
          2e10});
     cases.push_back({"steinberg" + with,
                      std::make_shared<SteinbergGuinan>(
-                         aluminium, SteinbergGuinanFlow{sg}, thermal, eos),
+                         aluminum(), SteinbergGuinanFlow{sg}, thermal, eos),
                      0.});
     cases.push_back(
-        {"elastic" + with, std::make_shared<Elastic>(aluminium, eos), 0.});
+        {"elastic" + with, std::make_shared<Elastic>(aluminum(), eos), 0.});
     cases.push_back({"neo-hookean" + with,
-                     std::make_shared<NeoHookean>(aluminium, eos), 0.});
+                     std::make_shared<NeoHookean>(aluminum(), eos), 0.});
   }
   return cases;
 }

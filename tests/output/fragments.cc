@@ -71,7 +71,7 @@ protected:
     {
       EXPECT_EQ(first.field("fragment", i), 0.);
       const double *const X = first.grid->GetPoint(i);
-      double mass = 2700. * 1e-9;
+      double mass = aluminum().density * 1e-9;
       for (const double from_face :
            {X[0], X[0] + 10e-3, std::abs(X[1]) - 1.5e-3,
             std::abs(X[2]) - 1.5e-3})
@@ -143,7 +143,7 @@ TEST_F(Torn, in_two_between_the_tied_particles_and_the_next)
     EXPECT_EQ(sum.points.size(), held ? 160u : 16u);
     for (const vtkIdType i : sum.points)
       EXPECT_EQ(first.grid->GetPoint(i)[0] < -0.5e-3, held);
-    EXPECT_NEAR(sum.mass, 2700. * 9e-6 * (held ? 9.5e-3 : 0.5e-3),
+    EXPECT_NEAR(sum.mass, aluminum().density * 9e-6 * (held ? 9.5e-3 : 0.5e-3),
                 1e-12 * sum.mass);
   }
   compare(sums);

@@ -10,6 +10,13 @@ namespace sabot
     @p name, upper and lower case alike. */
 std::string nearest_name(const std::string &name,
                          const std::vector<std::string> &allowed);
+
+/** Throws InputError for the entry @p path: it names a @p what that is not
+    among the @p allowed ones; suggests the nearest. */
+[[noreturn]] void throw_unknown_name(const std::string &path,
+                                     const std::string &what,
+                                     const std::string &name,
+                                     const std::vector<std::string> &allowed);
 } // namespace sabot
 
 #endif

@@ -77,6 +77,12 @@ public:
 
   void declare_entry(const std::string &name, const std::string &standard,
                      const Pattern &pattern, const std::string &meaning = "");
+  /** The same for an entry that trades speed for accuracy: result.json lists
+      these with the values in force. */
+  void declare_knob(const std::string &name, const std::string &standard,
+                    const Pattern &pattern, const std::string &meaning);
+  /** Path and value of all knobs, in the order of their declaration. */
+  std::vector<std::pair<std::string, std::string>> knobs();
   void enter_subsection(const std::string &name);
   void leave_subsection();
 
@@ -85,6 +91,8 @@ public:
   bool get_bool(const std::string &name) const;
   long get_integer(const std::string &name) const;
   bool is_declared(const std::string &name) const;
+  /** Names of the entries declared here, subsections left out. */
+  std::vector<std::string> entry_names() const;
   /** @return false where the entry does not accept @p value. */
   bool set(const std::string &name, const std::string &value);
 
@@ -94,6 +102,8 @@ public:
 
 private:
   std::unique_ptr<dealii::ParameterHandler> prm;
+  std::vector<std::string> section;                // present
+  std::vector<std::vector<std::string>> all_knobs; // sections and name
 };
 
 /** Enters Section/name of the parameters while it lives. */

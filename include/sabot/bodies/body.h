@@ -5,6 +5,7 @@
 #include "sabot/base/measures.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/state_visitor.h"
+#include "sabot/bodies/body_facts.h"
 
 #include <mpi.h>
 
@@ -122,6 +123,8 @@ public:
   virtual DebrisView debris() const = 0;
   /** Whether owned node @p i is still bonded to node @p j (global). */
   virtual bool are_bonded(const std::size_t i, const GlobalIndex j) const = 0;
+  /** Nodal spacing at the start along the axes [m]. */
+  virtual std::array<double, 3> lattice_spacing() const = 0;
   /** Bonds of owned particles, each counted at both ends. */
   virtual std::size_t n_bonds() const = 0;
 };
@@ -215,6 +218,15 @@ public:
   /** Whether nodes move by their own forces, so that a tie may lead them; not
       those of a rigid body. */
   virtual bool moves_node_by_node() const { return true; }
+
+  /** What is known of it before the run; before distribute() where it is asked
+      for its mesh. */
+  virtual BodyFacts facts() const = 0;
+  /** Whether something outside of the scene acts on it, e.g. a clamp, so that
+      momentum is not kept. */
+  virtual bool is_held() const = 0;
+  /** Where the model of the body is cut, the same on every rank. */
+  virtual std::vector<SymmetryPlane> planes_of_symmetry() const { return {}; }
 
   /** This rank's cells or particles as places of flow and failure. */
   virtual std::vector<MaterialSite> material_sites() const { return {}; }

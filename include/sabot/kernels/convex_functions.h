@@ -49,7 +49,18 @@ public:
   bool evaluate(const double length);
 
 private:
+  /** Psi_J, G and G' at this lambda (in units of 1/length). */
   void weights(const Vec lambda, const double length);
+  /** sum Psi_J D_J [m]. */
+  Vec offset() const;
+  /** Its change with lambda, sum D_J (x) dPsi_J/dlambda. */
+  Mat tangent(const double length) const;
+  /** Damped Newton iteration for lambda; leaves the weights at it. @return
+      whether it converges. */
+  bool solve(const double length, Vec &lambda);
+  /** By the spread of the functions, not the tangent's: the arctangent's slope
+      may be small. */
+  bool spans_space(const double length) const;
 
   const Basis basis;
   const double inset;

@@ -16,6 +16,7 @@ class BulkModulus : public EquationOfState
 public:
   explicit BulkModulus(const double K) : K(K) {}
   double bulk_modulus() const override { return K; }
+  bool is_linear() const override { return true; }
   void finish(const MaterialBatch &batch, const Start &,
               const double) const override;
 

@@ -43,6 +43,7 @@ public:
     return eos->needs_viscous_pressure();
   }
   bool stiffens() const override { return eos->stiffens(); }
+  bool has_equation_of_state() const override { return !eos->is_linear(); }
 
 protected:
   virtual std::vector<StateVariable> law_variables() const { return {}; }

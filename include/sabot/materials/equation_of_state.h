@@ -40,6 +40,8 @@ public:
   virtual double bulk_modulus() const = 0;
   /** State variables of its own, which stand before the law's. */
   virtual std::vector<StateVariable> state_variables() const { return {}; }
+  /** Whether the pressure is that of a constant bulk modulus. */
+  virtual bool is_linear() const { return false; }
   /** Whether finish() reads MaterialBatch::viscous_pressure. */
   virtual bool needs_viscous_pressure() const { return false; }
   /** Whether finish() writes MaterialBatch::stiffening. */

@@ -116,6 +116,12 @@ public:
   /** Whether `stiffening` may leave 1. */
   virtual bool stiffens() const { return false; }
 
+  /** Its subsection in the scene. */
+  std::string name;
+  /** Whether the pressure follows an equation of state, and not a constant
+      bulk modulus. */
+  virtual bool has_equation_of_state() const { return false; }
+
   /** What looks odd in the values, for the log. */
   std::vector<std::string> warnings;
 

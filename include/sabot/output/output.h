@@ -57,6 +57,10 @@ public:
   {
     return time >= next - slack;
   }
+  /** Time between two writes [s]. */
+  double period() const { return interval; }
+  /** Whether it writes the fields of all bodies. */
+  virtual bool writes_fields() const { return false; }
   /** Whether the run appends rows to the histories when this is due. */
   virtual bool needs_rows() const { return false; }
 

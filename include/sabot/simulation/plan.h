@@ -1,13 +1,15 @@
 #ifndef sabot_simulation_plan_h
 #define sabot_simulation_plan_h
 
+#include "sabot/bodies/body_facts.h"
 #include "sabot/simulation/scene.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <mpi.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,17 +24,13 @@ struct PlanNumber
 };
 
 /** A body before the run, as the estimates see it. */
-struct BodyFacts
+struct PlannedBody
 {
-  std::string name, material;
-  double density, bulk_modulus, shear_modulus; // [kg/m^3, Pa, Pa]
-  double wave_speed;                           // dilatational [m/s]
-  double yield_stress;        // at about 1e3 1/s [Pa]; huge: never yields
-  bool has_equation_of_state; // other than a constant bulk modulus
-  bool is_spg, is_rigid, is_clamped;
-  double failure_strain;                     // of bonds; huge: never
-  double spacing;                            // of nodes, finest [m]
-  std::array<double, 3> velocity, low, high; // [m/s, m, m]
+  std::string name;
+  BodyFacts facts;
+  /** Von Mises stress at about 1e3 1/s [Pa]; nothing: never yields. */
+  std::optional<double> yield_stress;
+  std::array<double, 3> low, high; // bounds of the nodes [m]
 };
 
 /** Where the fastest body meets those at rest. */
@@ -53,7 +51,7 @@ struct ImpactFacts
 
 struct PhysicsPlan
 {
-  std::vector<BodyFacts> bodies;
+  std::vector<PlannedBody> bodies;
   ImpactFacts impact;
   std::vector<PlanNumber> numbers;
   std::vector<std::string> warnings; // where the scene's switches disagree
@@ -78,7 +76,7 @@ struct CostPlan
 
 /** Dimensionless numbers of a scene, from its parameters alone; before its
     bodies are distributed. */
-PhysicsPlan plan_physics(Scene &scene);
+PhysicsPlan plan_physics(const Scene &scene);
 
 /**
  * Sets the scene up and makes its first steps for about @p seconds of wall

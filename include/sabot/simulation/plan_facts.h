@@ -6,10 +6,10 @@
 namespace sabot
 {
 /** Facts of all bodies; before they are distributed. */
-std::vector<BodyFacts> find_body_facts(Scene &scene);
+std::vector<PlannedBody> find_body_facts(const Scene &scene);
 
 /** The pair with the largest relative speed, the faster body first. */
-ImpactFacts find_impact(const std::vector<BodyFacts> &bodies);
+ImpactFacts find_impact(const std::vector<PlannedBody> &bodies);
 } // namespace sabot
 
 #endif

@@ -4,10 +4,10 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
-#include "sabot/geometry/shape.h"
+#include "sabot/geometry/carving.h"
 #include "sabot/materials/material.h"
-
-#include "sabot/base/parameters.h"
+#include "sabot/output/output.h"
+#include "sabot/simulation/quantity_of_interest.h"
 
 #include <map>
 #include <memory>
@@ -16,39 +16,6 @@
 
 namespace sabot
 {
-/** A number that a scene reports in result.json. */
-struct QuantityOfInterest
-{
-  enum class Type
-  {
-    velocity,
-    penetration_depth,
-    length,
-    radius
-  };
-  std::string name;
-  Type type;
-  int body;
-  Vec direction;      // unit
-  double origin = 0.; // of the penetration depth, along the direction [m]
-  /** Extent of the whole over that of the part that is modelled, per axis: 2
-      across a plane of symmetry. */
-  std::array<double, 3> whole{{1., 1., 1.}};
-};
-
-/** When fields or histories are written. */
-struct OutputSettings
-{
-  enum class Type
-  {
-    vtu,
-    history
-  };
-  std::string name;
-  Type type;
-  double interval; // [s]
-};
-
 /** Scalars of a scene. */
 struct RunSettings
 {
@@ -69,9 +36,10 @@ struct CarvedZone
 };
 
 /**
- * A scene file, read and checked: declared entries, then the objects built
- * from them. Construction throws InputError with file and line; it changes
- * nothing on disk.
+ * A scene file, read and checked: what its lists name, built by the registries
+ * of bodies, couplings, outputs and quantities. Construction throws InputError
+ * with file and line; it changes nothing on disk and is not collective but for
+ * @p communicator, which couplings keep.
  */
 class Scene
 {
@@ -82,12 +50,24 @@ public:
       Collective; after this the scene can run. */
   void distribute();
 
+  /** Declare the entries that the lists of @p file call for; of a null file all
+      that there are, as the manual shows them. */
+  static void declare(Parameters &prm, const ParameterFile *file);
+
+  /** The number of the body called @p body_name; InputError for the entry
+      @p path, with the nearest name, where there is none. */
+  int body_index(const std::string &path, const std::string &body_name) const;
+  std::vector<Body *> body_pointers() const;
+  /** Every entry with its value, as a parameter file. */
+  std::string expanded_parameters() const;
+  /** Path and value of every entry that trades speed for accuracy. */
+  std::vector<std::pair<std::string, std::string>> knobs() const;
+
   RunSettings settings;
-  std::vector<std::shared_ptr<const Material>> materials;
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<std::unique_ptr<Coupling>> couplings; // ties last
-  std::vector<OutputSettings> outputs;
-  std::vector<QuantityOfInterest> quantities;
+  std::vector<std::unique_ptr<Output>> outputs;
+  std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
   std::vector<std::string> warnings;
   std::vector<std::string> notes; // for `sabot check`, e.g. mesh quality
@@ -95,39 +75,17 @@ public:
       must be constant. */
   bool is_free = true;
 
-  Parameters prm;
-  int body_index(const std::string &path, const std::string &body_name) const;
-  std::vector<Body *> body_pointers() const;
-
-  /** Declare the entries that the file's lists call for. */
-  static void declare(Parameters &prm, const ParameterFile *file);
-
 private:
   void read_settings();
-  void build_materials();
-  void build_bodies();
-  std::vector<Carving> find_carvings(const std::vector<std::string> &names);
-  /** Mesh of the body whose subsection is entered, around or with the cells of
-      the zone that is @p carving. */
-  NamedMesh make_mesh(const std::string &path, const double cell_size,
-                      const Carving *carving);
-  /** Enter the spacing of particles that are the nodes of a mesh; refuse
-     another one in the file. */
-  void follow_spacing(const std::string &path, const double spacing);
-  void record_zone(const Carving &carving);
-  /** The SPG body whose subsection is entered; @p zone: cells of another body
-      that it replaces. */
-  std::unique_ptr<Body> make_particles(const std::string &name,
-                                       std::shared_ptr<const Material> material,
-                                       NamedMesh *zone);
-  void build_couplings();
+  void build_materials(const ParameterFile &file);
+  void build_couplings(const ParameterFile &file);
   void build_outputs();
   void build_quantities();
-  void check_overlaps() const;
+  std::vector<std::string> names_of(const std::string &list) const;
 
-  const ParameterFile &file;
+  mutable Parameters prm; // printing does not change it, but is not const
   MPI_Comm communicator;
-  std::map<std::string, std::shared_ptr<const Material>> material_by_name;
+  std::map<std::string, std::shared_ptr<const Material>> materials;
 };
 } // namespace sabot
 

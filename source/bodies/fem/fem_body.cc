@@ -35,30 +35,12 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                      "\"Inversion = erode\") or the conduction");
 }
 
-std::vector<GlobalIndex> FemBody::lay_out_nodes(const std::vector<int> &owner)
+void FemBody::lay_out_nodes(const LocalPart &part,
+                            const std::vector<int> &owner)
 {
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
-  // Cells of the owned nodes, then the nodes of these cells.
-  std::vector<GlobalIndex> owned, ghosts, cell_id;
-  for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] == rank)
-      owned.push_back(i);
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-  {
-    const auto &nodes = mesh.cells[c];
-    if (std::none_of(nodes.begin(), nodes.end(),
-                     [&](const GlobalIndex a) { return owner[a] == rank; }))
-      continue;
-    cell_id.push_back(c);
-    owned_cell.push_back(owner[*std::min_element(nodes.begin(), nodes.end())] ==
-                         rank);
-    for (const GlobalIndex a : nodes)
-      if (owner[a] != rank)
-        ghosts.push_back(a);
-  }
-  std::sort(ghosts.begin(), ghosts.end());
-  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  const auto owned_end = part.nodes.begin() + part.n_owned;
+  const std::vector<GlobalIndex> owned(part.nodes.begin(), owned_end),
+      ghosts(owned_end, part.nodes.end());
   std::vector<int> ghost_owner;
   for (const GlobalIndex g : ghosts)
     ghost_owner.push_back(owner[g]);
@@ -68,50 +50,39 @@ std::vector<GlobalIndex> FemBody::lay_out_nodes(const std::vector<int> &owner)
                       return std::lower_bound(owned.begin(), owned.end(), key) -
                              owned.begin();
                     });
-
-  std::vector<GlobalIndex> ids = owned;
-  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
-  nodal_state.resize(ids.size());
-  nodal_state.n_owned = owned.size();
-  nodal_state.global_id = ids;
+  nodal_state.resize(part.nodes.size());
+  nodal_state.n_owned = part.n_owned;
+  nodal_state.global_id = part.nodes;
   const auto &v = options.initial_velocity;
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  for (std::size_t i = 0; i < part.nodes.size(); ++i)
   {
-    const auto &p = mesh.nodes[ids[i]];
+    const auto &p = mesh.nodes[part.nodes[i]];
     nodal_state.reference_position[i] = nodal_state.position[i] =
         vec(p[0], p[1], p[2]);
     nodal_state.velocity[i] = vec(v[0], v[1], v[2]);
     nodal_state.force[i] = Vec{};
     nodal_state.lumped_mass[i] = 0.;
   }
-  return cell_id;
 }
 
 void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
 {
   communicator = comm;
-  const std::vector<GlobalIndex> cell_id = lay_out_nodes(owner);
-  std::unordered_map<GlobalIndex, std::uint32_t> local;
-  for (std::size_t i = 0; i < nodal_state.size(); ++i)
-    local[nodal_state.global_id[i]] = i;
-
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  const LocalPart part = find_local_part(mesh, owner, rank);
+  owned_cell = part.owned_cell;
+  lay_out_nodes(part, owner);
+  const auto connectivity = part.connectivity(mesh);
   // Masses add up in global cell order.
-  std::vector<std::array<std::uint32_t, 8>> connectivity;
-  for (const GlobalIndex c : cell_id)
-  {
-    std::array<std::uint32_t, 8> nodes;
-    for (int a = 0; a < 8; ++a)
-    {
-      nodes[a] = local.at(mesh.cells[c][a]);
-      nodal_state.lumped_mass[nodes[a]] +=
-          0.125 * material->density() * mesh.volume[c];
-    }
-    connectivity.push_back(nodes);
-  }
+  for (std::size_t e = 0; e < part.cells.size(); ++e)
+    for (const std::uint32_t a : connectivity[e])
+      nodal_state.lumped_mass[a] +=
+          0.125 * material->density() * mesh.volume[part.cells[e]];
   nodal_state.inertia = nodal_state.lumped_mass;
 
-  boundary.set_up(mesh, local, nodal_state.n_owned, constraints);
-  cells->set_up(mesh, cell_id, connectivity);
+  boundary.set_up(mesh, part.local, nodal_state.n_owned, constraints);
+  cells->set_up(mesh, part.cells, connectivity);
   if (options.erodes())
     erosion = std::make_unique<FemErosion>(
         options, *material, nodal_state, *cells, boundary, owned_cell,
@@ -236,6 +207,23 @@ BodyMeasures FemBody::measure() const
   if (erosion)
     erosion->add_measures(measures);
   return measures;
+}
+
+BodyFacts FemBody::facts() const
+{
+  BodyFacts facts;
+  facts.material = material.get();
+  facts.is_clamped = !options.clamped_boundary_ids.empty();
+  facts.velocity = options.initial_velocity;
+  facts.spacing = options.cell_size;
+  return facts;
+}
+
+bool FemBody::is_held() const
+{
+  return !options.clamped_boundary_ids.empty() ||
+         !options.symmetry_boundary_ids.empty() ||
+         !options.driven_boundary_ids.empty();
 }
 
 std::vector<MaterialSite> FemBody::material_sites() const

@@ -40,17 +40,17 @@ FemBoundary::FemBoundary(const std::string &body_name, const HexMesh &mesh,
 {
   for (const unsigned int id : options.symmetry_boundary_ids)
   {
-    const int axis = plane_axis(mesh, id);
-    if (axis < 0)
+    const std::optional<int> axis = plane_axis(mesh, id);
+    if (!axis)
       throw InputError("Bodies/" + body_name + "/Symmetry faces",
                        "these faces do not lie in one plane across the x, y or "
                        "z axis; a symmetry plane must");
-    symmetry_axes[id] = axis;
+    symmetry_axes[id] = *axis;
     for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
       if (mesh.boundary_id[f] == id)
       {
         symmetry_planes.push_back(
-            {axis, mesh.nodes[mesh.boundary_faces[f][0]][axis]});
+            {*axis, mesh.nodes[mesh.boundary_faces[f][0]][*axis]});
         break;
       }
   }
@@ -143,8 +143,7 @@ ContactSurface FemBoundary::surface(const std::size_t n_owned,
   return surface;
 }
 
-std::vector<std::uint32_t>
-FemBoundary::find_cells(const Hexahedra &cells) const
+std::vector<std::uint32_t> FemBoundary::find_cells(const Hexahedra &cells) const
 {
   std::map<std::size_t, std::vector<std::uint32_t>> cells_of;
   for (const auto &face : faces)
@@ -174,11 +173,9 @@ FemBoundary::find_cells(const Hexahedra &cells) const
   return found;
 }
 
-std::vector<double>
-FemBoundary::flow_stress(const std::vector<std::size_t> &some_nodes,
-                         const std::size_t n_local_nodes,
-                         const Hexahedra &cells,
-                         const std::vector<std::uint32_t> &cell_of) const
+std::vector<double> FemBoundary::flow_stress(
+    const std::vector<std::size_t> &some_nodes, const std::size_t n_local_nodes,
+    const Hexahedra &cells, const std::vector<std::uint32_t> &cell_of) const
 {
   constexpr double does_not_yield = 1e300; // [Pa], see Body::flow_stress()
   std::vector<std::int64_t> number(n_local_nodes, -1);

@@ -1,3 +1,4 @@
+// Neighbours of particles: search, compressed list, removal, ghosts' bonds.
 #include "sabot/bodies/spg/bond_list.h"
 
 #include <algorithm>
@@ -194,7 +195,7 @@ void BondList::connect(const Rows &rows,
 
   std::vector<std::size_t> new_start(1, 0);
   std::vector<std::uint32_t> new_count, new_neighbor;
-  AlignedVector<StoredVec> new_residual;
+  std::vector<std::uint32_t> new_origin;
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     // Both the old and the new row ascend.
@@ -205,7 +206,7 @@ void BondList::connect(const Rows &rows,
       while (old < last && id[neighbor[old]] < j)
         ++old;
       const bool kept = old < last && id[neighbor[old]] == j;
-      new_residual.push_back(kept ? residual[old] : StoredVec{});
+      new_origin.push_back(kept ? old : is_new);
       new_neighbor.push_back(local.at(j));
     }
     new_start.push_back(new_neighbor.size());
@@ -219,9 +220,9 @@ void BondList::connect(const Rows &rows,
   row_start.swap(new_start);
   count.swap(new_count);
   neighbor.swap(new_neighbor);
-  residual.swap(new_residual);
+  origin.swap(new_origin);
   weight.assign(neighbor.size(), 0.);
-  residual_weight.assign(neighbor.size(), 0.);
+  scaled_weight.assign(neighbor.size(), 0.);
   reconnect();
 }
 
@@ -260,13 +261,11 @@ void BondList::reconnect()
                           id.begin(), id.begin() + n_owned, key / n_total);
                       return find(i - id.begin(), key % n_total);
                     });
-  residual.resize(neighbor.size() + owners.size());
 }
 
-std::size_t BondList::remove(const std::vector<char> &dead)
+bool BondList::remove(const std::vector<char> &dead)
 {
-  std::size_t n_removed = 0;
-  int across_ranks = 0;
+  int has_changed = 0;
   for (std::size_t i = 0; i < n_owned; ++i)
   {
     std::size_t to = begin(i);
@@ -275,20 +274,18 @@ std::size_t BondList::remove(const std::vector<char> &dead)
     {
       if (dead[from])
       {
-        ++n_removed;
+        has_changed = 1;
         continue;
       }
+      origin[to] = from;
       if (to != from)
       {
         neighbor[to] = neighbor[from];
         reverse[to] = reverse[from];
         weight[to] = weight[from];
-        residual_weight[to] = residual_weight[from];
-        residual[to] = residual[from];
+        scaled_weight[to] = scaled_weight[from];
         if (neighbor[to] < n_owned)
           reverse[reverse[to]] = to;
-        else
-          across_ranks = 1;
       }
       ++to;
     }
@@ -296,12 +293,11 @@ std::size_t BondList::remove(const std::vector<char> &dead)
       count[i] = to - begin(i);
   }
   // Bonds that go or move at a rank's border change what is exchanged.
-  across_ranks = across_ranks != 0 || n_removed > 0;
-  MPI_Allreduce(MPI_IN_PLACE, &across_ranks, 1, MPI_INT, MPI_MAX, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, &has_changed, 1, MPI_INT, MPI_MAX, communicator);
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
-  if (n_ranks > 1 && across_ranks)
+  if (n_ranks > 1 && has_changed)
     reconnect();
-  return n_removed;
+  return has_changed != 0;
 }
 } // namespace sabot

@@ -1,56 +1,50 @@
+// The SPG body: composes its rooms, drives kernel updates, and shows itself to
+// couplings.
 #include "sabot/bodies/spg/spg_body.h"
 
-#include "sabot/base/error.h"
-#include "sabot/bodies/body_report.h"
-#include "sabot/bodies/flow_stress.h"
+#include "sabot/bodies/spg/neighbor_search.h"
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
 namespace sabot
 {
 SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                  std::shared_ptr<const Material> material,
                  const SpgOptions &options)
-    : Body(name, id), cloud(std::move(cloud)), material(std::move(material)),
-      options(options), n_global(this->cloud.position.size()),
-      spacing(this->cloud.spacing),
-      mean_spacing(std::cbrt(spacing[0] * spacing[1] * spacing[2])),
-      face_axis(this->cloud.face_axis), is_regular(this->cloud.shape.empty()),
-      points(this->material)
+    : Body(name, id), cloud(std::move(cloud)), options(options),
+      n_global(this->cloud.position.size()), points(std::move(material)),
+      kernel(options, this->cloud), approximation(options),
+      surface(this->cloud, options, "Bodies/" + name),
+      stabilization(options.stabilization()), failure(options),
+      residual_strength(options.residual_strength()), parts{this->name,
+                                                            this->options,
+                                                            nodal_state,
+                                                            node_exchange,
+                                                            bonds,
+                                                            fields,
+                                                            points,
+                                                            kernel,
+                                                            approximation,
+                                                            failure,
+                                                            *residual_strength,
+                                                            stable,
+                                                            constraints,
+                                                            work,
+                                                            watch}
 {
-  bool known = options.failure_criterion !=
-               SpgOptions::FailureCriterion::effective_plastic_strain;
-  known = known || points.has_state("effective plastic strain");
-  if (options.can_fail() && !known)
-    throw InputError("Bodies/" + name + "/Critical effective plastic strain",
-                     "the body's material has no effective plastic strain; "
-                     "use a law with plasticity or remove the entry");
-  if (options.conducts_heat && !(this->material->conductivity() > 0.))
+  options.failure_criterion->check(points, "Bodies/" + name);
+  if (options.conducts_heat && !(points.law().conductivity() > 0.))
     throw InputError("Bodies/" + name + "/Heat conduction",
                      "the body's material has no temperature or no thermal "
                      "conductivity; set \"Thermal conductivity\" of a law "
                      "with temperature, for example 167 W/m/K");
-  for (unsigned int face = 0; face < ParticleCloud::n_faces; ++face)
-    if (options.symmetry_faces & 1u << face &&
-        (face >= face_axis.size() || face_axis[face] < 0))
-      throw InputError("Bodies/" + name + "/Symmetry faces",
-                       "these faces do not lie in one plane across the x, y "
-                       "or z axis; a symmetry plane must");
-  for (unsigned int face = 0; face < face_axis.size(); ++face)
-    if (options.symmetry_faces & 1u << face)
-      for (std::size_t i = 0; i < n_global; ++i)
-        if (this->cloud.on_face[i] & 1u << face)
-        {
-          symmetry_planes.push_back(
-              {face_axis[face], this->cloud.position[i][face_axis[face]]});
-          break;
-        }
 }
 
 void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
 {
   communicator = comm;
+  rank_of = owner;
   int rank;
   MPI_Comm_rank(communicator, &rank);
   std::vector<GlobalIndex> ids;
@@ -58,119 +52,62 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     if (owner[i] == rank)
       ids.push_back(i);
   const std::size_t n = ids.size();
-  AlignedVector<Mat> kernels = cloud.shape;
-  if (is_regular)
-    kernels.push_back(Mat{
-        {vec(spacing[0], 0, 0), vec(0, spacing[1], 0), vec(0, 0, spacing[2])}});
-  for (Mat &H : kernels)
-    H = options.normalized_support * H;
+  const AlignedVector<Mat> kernels = kernel.initial_kernels(cloud);
   BondList::Rows rows;
   try
   {
-    rows = BondList::rows_in_kernels(
-        cloud.position, kernels,
-        options.kernel_shape == SpgOptions::KernelShape::tensor, ids);
+    rows = BondList::rows_in_kernels(cloud.position, kernels,
+                                     options.has_tensor_kernel(), ids);
   }
   catch (const std::invalid_argument &e)
   {
     throw InputError("Bodies/" + name, e.what());
   }
-  rank_of = owner;
+  const Material &law = points.law();
   nodal_state.resize(n);
   nodal_state.n_owned = n;
   nodal_state.global_id = ids;
-  on_face.resize(n);
-  const AlignedVector<Vec> normals =
-      outward_normals(cloud, options.symmetry_faces);
-  outward.resize(n);
-  reference_volume.resize(n);
+  std::vector<double> volume(n), capacity(n);
   const auto &v = options.initial_velocity;
   for (std::size_t i = 0; i < n; ++i)
   {
     const auto &p = cloud.position[ids[i]];
-    const double volume = cloud.volume[ids[i]];
+    volume[i] = cloud.volume[ids[i]];
     nodal_state.reference_position[i] = nodal_state.position[i] =
         vec(p[0], p[1], p[2]);
     nodal_state.velocity[i] = vec(v[0], v[1], v[2]);
     nodal_state.force[i] = Vec{};
     nodal_state.lumped_mass[i] = nodal_state.inertia[i] =
-        material->density() * volume;
-    on_face[i] = cloud.on_face[ids[i]];
-    const unsigned int planes = symmetry_axes(i);
-    // Its mirror image has the other half of a plane's facets.
-    Vec normal = normals[ids[i]];
-    const double cosine = norm(normal);
-    for (int d = 0; d < 3; ++d)
-      if (planes >> d & 1)
-      {
-        normal[d] = 0.;
-        constraints.prescribe(i, d, 0.);
-      }
-    outward[i] =
-        norm_square(normal) > 0. ? cosine / norm(normal) * normal : normal;
-    reference_volume[i] = volume;
-    if (on_face[i] & options.clamped_faces)
-      for (int d = 0; d < 3; ++d)
-        constraints.prescribe(i, d, 0.);
-    if (!is_regular)
-      initial_kernel.push_back(kernels[ids[i]]);
+        law.density() * volume[i];
+    capacity[i] = volume[i] * (law.density() * law.specific_heat());
   }
-  constraints.finish();
-  renumber(rows);
+  surface.distribute(cloud, ids, options.clamped_faces, constraints);
+  kernel.distribute(kernels, ids);
   cloud = ParticleCloud();
-
-  kernel_volume = reference_volume;
-  gradient.assign(n, Mat::identity());
-  total_gradient.assign(n, Mat::identity());
-  moment_inverse.resize(n);
-  bond_stiffness.resize(n);
-  weak.resize(n);
-  residual_factor.assign(n, 1.);
-  n_failed.assign(n, 0);
-  if (options.neighbor_policy == SpgOptions::NeighborPolicy::search)
-    failed_pairs.resize(n);
-  if (options.stabilization == Stabilization::second_gradient)
-  {
-    second_gradient = std::make_unique<SecondGradient>(
-        material->bulk_modulus(), material->shear_modulus(), n);
-    second_gradient->generalized_stress.resize(nodal_state.size());
-  }
+  fields.allocate(volume, law.stiffens());
   points.allocate(n, n);
-  if (material->stiffens())
-    stiffening.assign(n, 1.);
-  bond_work.assign(n, 0.);
-  failure_loss.assign(n, 0.);
-  own_force.assign(n, Vec{});
-  update_stable_step.resize(n);
-  std::fill(std::begin(batch.extra_square), std::end(batch.extra_square), 0.);
-  set_up_kernel();
+  approximation.allocate(n);
+  failure.allocate(n);
+  stable.allocate(n);
+  stabilization->allocate(parts);
+  renumber(rows);
+
+  kernel.start(fields, node_exchange);
+  fields.kernel_reference_position = nodal_state.position;
+  update_functions();
+  if (options.stores_gradients())
+    approximation.set_convex_masses(nodal_state, bonds, node_exchange);
+  stable.estimate(parts, *stabilization);
+  if (n_global > 1)
+    stable.calibrate(parts, *stabilization, 0, true, communicator);
   if (options.conducts_heat)
-    set_up_conduction();
-}
-
-void SpgBody::set_up_conduction()
-{
-  std::vector<double> capacity = reference_volume;
-  for (double &c : capacity)
-    c *= material->density() * material->specific_heat();
-  heat = std::make_unique<ParticleConduction>(
-      material->conductivity(),
-      ParticleConduction::Cloud{bonds, node_exchange, kernel_position,
-                                moment_inverse, kernel_volume, weak},
-      std::move(capacity), communicator);
-}
-
-void SpgBody::conduct_heat(const double time)
-{
-  heat->advance(time - last_conduction, points.state("temperature"));
-  last_conduction = time;
-}
-
-double SpgBody::local_spacing(const std::size_t i) const
-{
-  return is_regular ? mean_spacing
-                    : std::cbrt(determinant(initial_kernel[i])) /
-                          options.normalized_support;
+    heat = std::make_unique<ParticleConduction>(
+        law.conductivity(),
+        ParticleConduction::Cloud{
+            bonds, node_exchange, fields.kernel_reference_position,
+            approximation.moment_inverse, fields.kernel_reference_volume,
+            approximation.lost_direction},
+        std::move(capacity), communicator);
 }
 
 void SpgBody::renumber(const BondList::Rows &rows)
@@ -195,123 +132,154 @@ void SpgBody::renumber(const BondList::Rows &rows)
   node_exchange.update(nodal_state.lumped_mass.data());
   node_exchange.update(nodal_state.inertia.data());
   bonds.connect(rows, ids, ghost_owner, n_global, communicator);
-  generalized_stress.resize(ids.size(), Mat::zero());
-  kernel.resize(ids.size());
-  previous_position = nodal_state.position;
-  failure_measure.resize(ids.size());
-  if (second_gradient)
-    second_gradient->generalized_stress.resize(ids.size());
+  fields.resize(ids.size());
+  stabilization->carry_bonds(bonds);
+  stabilization->renew_ghosts(parts);
 }
 
-std::vector<std::size_t>
-SpgBody::particles_on_faces(const std::uint32_t faces) const
+void SpgBody::update_ghosts()
 {
-  std::vector<std::size_t> particles;
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (on_face[i] & faces)
-      particles.push_back(i);
-  return particles;
+  node_exchange.update(nodal_state.position.data());
 }
 
-unsigned int SpgBody::symmetry_axes(const std::size_t i) const
+void SpgBody::compute_forces(const double /*time*/, const double dt)
 {
-  unsigned int axes = 0;
-  for (std::size_t face = 0; face < face_axis.size(); ++face)
-    if (on_face[i] & options.symmetry_faces & 1u << face)
-      axes |= 1u << face_axis[face];
-  return axes;
+  watch = StepWatch();
+  evaluate_forces(dt);
+  // Only now: the other ranks wait for the exchanges of the loop.
+  if (!watch.problem.empty())
+    throw PhysicsError(watch.problem);
 }
 
-ContactSurface SpgBody::contact_surface() const
+void SpgBody::evaluate_forces(const double dt)
 {
-  // Any particle may come to lie open, so all may touch faces.
-  ContactSurface surface;
-  surface.nodes.resize(nodal_state.n_owned);
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    surface.nodes[i] = i;
-  if (options.symmetry_faces != 0)
-    for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-      surface.node_share.push_back(
-          std::ldexp(1., -__builtin_popcount(symmetry_axes(i))));
-  surface.symmetry_planes = symmetry_planes;
-  surface.bulk_modulus = material->bulk_modulus();
-  surface.spacing = mean_spacing;
-  return surface;
+  watch.restart();
+  stabilization->compute_forces(parts, dt);
+  std::copy_n(nodal_state.force.begin(), nodal_state.n_owned,
+              fields.own_force.begin());
 }
 
-std::vector<double>
-SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
+StableStep SpgBody::stable_step() const
 {
-  FlowStressProbe probe(*material);
-  for (const std::size_t i : some_nodes)
-    points.add_to(probe, i,
-                  determinant(gradient[i]) * kernel_volume[i] /
-                      reference_volume[i]);
-  return probe.flow_stress();
+  return {watch.stable_step, watch.stable_step_item};
 }
 
-SurfacePoint SpgBody::surface_point(const std::size_t i) const
+double SpgBody::largest_frequency(const unsigned int n)
 {
-  // From the cosine of the normals that meet at a particle: an edge of 90
-  // degrees has none of its own, a facet of a round side (0.92 with eight
-  // around) does.
-  constexpr double edge = 0.75, face = 0.9, least_flatness = 0.02;
-  SurfacePoint point;
-  const double cosine = norm(outward[i]);
-  if (!(cosine > 0.))
-    return point;
-  point.flatness =
-      std::clamp((cosine - edge) / (face - edge), least_flatness, 1.);
-  // Normals go with F^-T, areas with det F over the length of F^T n.
-  const Mat F = deformation_gradient(i);
-  point.normal = transpose(inverse(F)) * outward[i];
-  point.normal *= 1. / norm(point.normal);
-  point.spacing = mean_spacing * std::sqrt(std::abs(determinant(F)) /
-                                           norm(transpose(F) * point.normal));
-  return point;
+  return sabot::largest_frequency(parts, *stabilization, n, communicator);
 }
 
-VolumePoint SpgBody::volume_point(const std::size_t i) const
+bool SpgBody::update_topology(const unsigned int step, const double time)
 {
-  // 1.75 spacings: half of the space is filled within 0.005 spacings of a
-  // lattice's face wherever along it, and deep inside 0.98 to 1.005 of it; 1.5
-  // make bumps of 0.08, and more rounds edges more.
-  constexpr double radius = 1.75;
-  VolumePoint point;
-  double volume = reference_volume[i];
-  if (weak[i])
+  // Regular updates where something has deformed; at once where a particle has
+  // been stretched by much or a bond fails. All ranks must agree.
+  const bool regular = kernel.is_regular_step(step),
+             looks = failure.is_due(step) || regular;
+  const auto find_failed = [&]
+  { return failure.find(nodal_state, bonds, fields, points, node_exchange); };
+  double due = kernel.has_changed(watch.largest_change) ||
+               (regular && kernel.has_strained(fields));
+  if (looks)
+    due = std::max(due, double(find_failed()));
+  MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  if (due > 0.)
   {
-    // What lost a direction has no shape to speak of.
-    point.to_unit = 1. / (radius * local_spacing(i)) * Mat::identity();
+    if (!looks)
+      find_failed();
+    update_kernel_and_forces(step);
   }
-  else
+  stabilization->after_step(parts, step);
+  if (heat && time >= last_conduction + options.conduction_interval)
   {
-    const Mat to_space =
-        (radius / options.normalized_support) * (gradient[i] * kernel[i]);
-    point.to_unit = inverse(to_space);
-    volume = kernel_volume[i] * determinant(gradient[i]);
+    heat->advance(time - last_conduction, points.state("temperature"));
+    last_conduction = time;
   }
-  // The integral of the spline over the unit ball is pi/12.
-  point.content = 12. / M_PI * volume * std::abs(determinant(point.to_unit));
-  return point;
+  return due > 0.;
 }
 
-DebrisView SpgBody::debris() const
+void SpgBody::update_kernel_and_forces(const unsigned int step)
 {
-  DebrisView view;
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (n_failed[i] > 0)
-      view.nodes.push_back(i);
-  view.bulk_modulus = material->bulk_modulus();
-  view.spacing = mean_spacing;
-  return view;
+  // The next step begins with half a kick by these forces, and the ledger will
+  // count the work that the new bonds and functions do along it.
+  const std::size_t n = nodal_state.n_owned;
+  AlignedVector<Vec> added(n);
+  for (std::size_t i = 0; i < n; ++i)
+    added[i] = nodal_state.force[i] - fields.own_force[i];
+  update_kernel(step);
+  evaluate_forces(0.); // no problem where nothing is deformed yet
+  for (std::size_t i = 0; i < n; ++i)
+    nodal_state.force[i] += added[i];
 }
 
-bool SpgBody::are_bonded(const std::size_t i, const GlobalIndex j) const
+void SpgBody::update_functions()
 {
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    if (nodal_state.global_id[bonds.neighbor[b]] == j)
-      return true;
-  return false;
+  approximation.update(bonds, fields, kernel,
+                       stabilization->second_derivatives());
+  stabilization->follow_functions(parts);
+}
+
+namespace
+{
+/** What a particle that lost a direction just now cannot bear is cut; what it
+    stored is lost with it. */
+void release_stress(SpgParts &body, const std::size_t i)
+{
+  const double K = body.points.law().bulk_modulus(),
+               G = body.points.law().shear_modulus();
+  const auto elastic_energy = [&](const double s[6])
+  {
+    const double mean = (s[0] + s[1] + s[2]) / 3.;
+    double square = 0.;
+    for (int c = 0; c < 3; ++c)
+      square += (s[c] - mean) * (s[c] - mean) + 2. * s[3 + c] * s[3 + c];
+    return mean * mean / (2. * K) + square / (4. * G);
+  };
+  double s[6];
+  for (int c = 0; c < 6; ++c)
+    s[c] = body.points.stress_row(c)[i];
+  const double before = elastic_energy(s);
+  body.residual_strength.release(s);
+  for (int c = 0; c < 6; ++c)
+    body.points.stress_row(c)[i] = s[c];
+  body.failure.loss[i] +=
+      body.fields.kernel_reference_volume[i] * (before - elastic_energy(s));
+}
+} // namespace
+
+void SpgBody::update_kernel(const unsigned int step)
+{
+  const std::size_t n = nodal_state.n_owned;
+  stabilization->begin_kernel_update(parts);
+  kernel.follow(fields);
+  node_exchange.update(fields.kernel.data());
+  std::vector<double> held(n);
+  for (std::size_t i = 0; i < n; ++i)
+    held[i] = stabilization->held_energy(parts, i);
+  const std::vector<std::uint32_t> failed_before = failure.n_failed;
+  const std::vector<char> lost_before = approximation.lost_direction;
+  if (failure.remove(nodal_state, bonds))
+    stabilization->carry_bonds(bonds);
+  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
+  {
+    renumber(search_neighbors(options, nodal_state, bonds, fields, failure,
+                              n_global, communicator));
+    node_exchange.update(fields.kernel.data());
+  }
+
+  fields.kernel_reference_position = nodal_state.position;
+  update_functions();
+  stabilization->end_kernel_update(parts, lost_before);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const bool just_lost = approximation.lost_direction[i] && !lost_before[i];
+    if (just_lost)
+      release_stress(parts, i);
+    if (just_lost || failure.n_failed[i] != failed_before[i])
+      failure.loss[i] += held[i] - stabilization->held_energy(parts, i);
+  }
+  stable.estimate(parts, *stabilization);
+  ++n_updates;
+  if (n_global > 1 && stable.calibration_is_due(parts, step, communicator))
+    stable.calibrate(parts, *stabilization, step, false, communicator);
 }
 } // namespace sabot

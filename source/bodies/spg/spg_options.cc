@@ -1,10 +1,71 @@
+// Entries of SPG bodies: what all of them have; choices from registries bring
+// their own.
 #include "sabot/bodies/spg/spg_options.h"
 
+#include "sabot/base/choice.h"
 #include "sabot/base/error.h"
-#include "sabot/base/parameters.h"
 
 namespace sabot
 {
+namespace
+{
+constexpr const char *standard_form = "bond residual",
+                     *standard_criterion = "effective plastic strain",
+                     *standard_rule = "compression";
+} // namespace
+
+SpgOptions::SpgOptions()
+    : stabilization(choose<Stabilization>(standard_form)),
+      failure_criterion(choose<FailureCriterion>(standard_criterion)),
+      residual_strength(choose<ResidualStrength>(standard_rule))
+{
+}
+
+void SpgOptions::set_critical_plastic_strain(const double critical)
+{
+  failure_criterion = choose<FailureCriterion>(
+      "effective plastic strain",
+      {{"Critical effective plastic strain", exact_text(critical)}});
+}
+
+namespace
+{
+void declare_kernel(Parameters &prm)
+{
+  prm.declare_entry("Kernel update interval", "30", integer(1),
+                    "Steps between updates of the Lagrangian kernel.");
+  prm.declare_entry("Kernel update strain", "0.02",
+                    quantity(Dimension::none, 0., 1.),
+                    "An interval passes without update when no particle has "
+                    "strained by more than this since the last one; rotation "
+                    "needs none. 0: every interval.");
+  prm.declare_entry("Kernel update change", "1.1",
+                    quantity(Dimension::none, 1.01, 10.),
+                    "A particle that has been stretched or flattened by about "
+                    "this factor since the last update calls for an update at "
+                    "once.");
+}
+
+void declare_failure(Parameters &prm)
+{
+  prm.declare_entry("Failure check interval", "5", integer(1),
+                    "Steps between checks of the bonds; where any fails, the "
+                    "kernel is updated at once.");
+  Registry<FailureCriterion>::declare_choice(
+      prm, "Failure criterion", standard_criterion,
+      "A bond fails for ever when the mean of this over its two ends exceeds "
+      "the critical value and its stretch exceeds the critical stretch.");
+  Registry<FailureCriterion>::declare_entries(prm, "");
+  prm.declare_entry("Critical stretch", "1", quantity(Dimension::none, 1., 10.),
+                    "Distance over original distance above which a bond may "
+                    "fail; at least 1, so that none fails in compression.");
+  Registry<ResidualStrength>::declare_choice(
+      prm, "Failed metal carries", standard_rule,
+      "Stress of particles whose remaining bonds no longer span space.");
+  Registry<ResidualStrength>::declare_entries(prm, "");
+}
+} // namespace
+
 void SpgOptions::declare_parameters(Parameters &prm)
 {
   prm.declare_entry(
@@ -21,61 +82,19 @@ void SpgOptions::declare_parameters(Parameters &prm)
                     quantity(Dimension::none, 1.0, 2.8),
                     "Kernel radius (tensor: half width) over nodal spacing. "
                     "Spherical least squares needs 1.8 or more.");
-  prm.declare_entry(
-      "Stabilisation", "bond residual",
-      one_of("bond residual|second gradient|velocity smoothing|none"),
+  Registry<Stabilization>::declare_choice(
+      prm, "Stabilisation", standard_form,
       "What keeps the sawtooth modes of direct nodal integration under "
-      "control. second gradient needs a convex approximation; its stable "
-      "step is 2 to 3 times shorter.");
-  prm.declare_entry("Stabilisation coefficient", "4",
-                    quantity(Dimension::none, 0., 20.),
-                    "Stiffness of the bond residual in shear moduli; 3 to 5 "
-                    "give the same answers.");
-  prm.declare_entry("Smoothing coefficient", "0.1",
-                    quantity(Dimension::none, 0., 1.),
-                    "Part of the doubly smoothed difference that velocity "
-                    "smoothing takes out each time.");
-  prm.declare_entry("Smoothing interval", "5", integer(1),
-                    "Steps between velocity smoothings.");
+      "control.");
+  Registry<Stabilization>::declare_entries(prm, "");
   prm.declare_entry(
       "Neighbour policy", "Lagrangian list",
       one_of("Lagrangian list|search undamaged|search"),
       "Lagrangian list: bonds of the start, only ever removed; search "
       "undamaged: kernel updates add bonds between particles without a failed "
       "bond; search: between all pairs but those whose bond failed.");
-  prm.declare_entry("Kernel update interval", "30", integer(1),
-                    "Steps between updates of the Lagrangian kernel.");
-  prm.declare_entry("Kernel update strain", "0.02",
-                    quantity(Dimension::none, 0., 1.),
-                    "An interval passes without update when no particle has "
-                    "strained by more than this since the last one; rotation "
-                    "needs none. 0: every interval.");
-  prm.declare_entry("Kernel update change", "1.1",
-                    quantity(Dimension::none, 1.01, 10.),
-                    "A particle that has been stretched or flattened by about "
-                    "this factor since the last update calls for an update at "
-                    "once.");
-  prm.declare_entry("Failure check interval", "5", integer(1),
-                    "Steps between checks of the bonds; where any fails, the "
-                    "kernel is updated at once.");
-  prm.declare_entry("Failure criterion", "effective plastic strain",
-                    one_of("effective plastic strain|maximum principal "
-                           "stress|maximum shear strain"),
-                    "A bond fails for ever when the mean of this over its two "
-                    "ends exceeds the critical value and its stretch exceeds "
-                    "the critical stretch.");
-  prm.declare_entry("Critical effective plastic strain", "1e10",
-                    quantity(Dimension::none, 0.), "1e10: bonds never fail.");
-  prm.declare_entry("Critical principal stress", "1e15",
-                    quantity(Dimension::pressure, 0.),
-                    "Tensile. 1e15: bonds never fail.");
-  prm.declare_entry("Critical shear strain", "1e10",
-                    quantity(Dimension::none, 0.),
-                    "Largest difference of two principal logarithmic strains. "
-                    "1e10: bonds never fail.");
-  prm.declare_entry("Critical stretch", "1", quantity(Dimension::none, 1., 10.),
-                    "Distance over original distance above which a bond may "
-                    "fail; at least 1, so that none fails in compression.");
+  declare_kernel(prm);
+  declare_failure(prm);
   prm.declare_entry("Linear bulk viscosity", "0.06",
                     quantity(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
@@ -108,17 +127,28 @@ Choice choice(const Parameters &prm, const std::string &entry,
   return static_cast<Choice>(i);
 }
 
-/** An entry that has no effect with the choice made is a mistake. */
-void refuse_unused(const Parameters &prm, const std::string &path,
-                   const std::string &entry, const double value,
-                   const double unset, const std::string &selector,
-                   const std::string &needed)
+/** What the registry makes of the choice in the entry @p selector. */
+template <typename Product>
+auto chosen(const Parameters &prm, const std::string &path,
+            const std::string &selector)
 {
-  if (value != unset && prm.get(selector) != needed)
-    throw InputError(path + "/" + entry, "has no effect with " + selector +
-                                             " = " + prm.get(selector) +
-                                             "; remove it or set " + selector +
-                                             " = " + needed);
+  refuse_unused<Product>(prm, path, selector);
+  return Registry<Product>::get(path + "/" + selector, prm.get(selector))
+      .make(prm, path);
+}
+
+void check_support(const SpgOptions &o, const Parameters &prm,
+                   const std::string &path)
+{
+  const double least = o.stores_gradients()     ? 1.05
+                       : !o.has_tensor_kernel() ? 1.8
+                                                : 1.2;
+  if (o.normalized_support < least)
+    throw InputError(
+        path + "/Normalised support size",
+        "is " + prm.get("Normalised support size") +
+            "; this approximation and kernel shape need at least " +
+            std::to_string(least) + ", else particles have too few neighbours");
 }
 } // namespace
 
@@ -131,12 +161,6 @@ SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
   o.kernel_shape =
       choice<KernelShape>(prm, "Kernel shape", {"spherical", "tensor"});
   o.normalized_support = get_quantity(prm, "Normalised support size");
-  o.stabilization = choice<Stabilization>(
-      prm, "Stabilisation",
-      {"bond residual", "second gradient", "velocity smoothing", "none"});
-  o.stabilization_coefficient = get_quantity(prm, "Stabilisation coefficient");
-  o.smoothing_coefficient = get_quantity(prm, "Smoothing coefficient");
-  o.smoothing_interval = prm.get_integer("Smoothing interval");
   o.neighbor_policy =
       choice<NeighborPolicy>(prm, "Neighbour policy",
                              {"Lagrangian list", "search undamaged", "search"});
@@ -144,63 +168,22 @@ SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
   o.kernel_update_strain = get_quantity(prm, "Kernel update strain");
   o.kernel_update_change = get_quantity(prm, "Kernel update change");
   o.failure_check_interval = prm.get_integer("Failure check interval");
-  o.failure_criterion = choice<FailureCriterion>(prm, "Failure criterion",
-                                                 {"effective plastic strain",
-                                                  "maximum principal stress",
-                                                  "maximum shear strain"});
-  o.critical_effective_plastic_strain =
-      get_quantity(prm, "Critical effective plastic strain");
-  o.critical_principal_stress = get_quantity(prm, "Critical principal stress");
-  o.critical_shear_strain = get_quantity(prm, "Critical shear strain");
+  o.failure_criterion =
+      chosen<FailureCriterion>(prm, path, "Failure criterion");
   o.critical_stretch = get_quantity(prm, "Critical stretch");
+  o.residual_strength =
+      chosen<ResidualStrength>(prm, path, "Failed metal carries");
+  o.stabilization = chosen<Stabilization>(prm, path, "Stabilisation");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
   o.conducts_heat = prm.get_bool("Heat conduction");
   o.conduction_interval = get_quantity(prm, "Conduction interval");
-
-  refuse_unused(prm, path, "Critical effective plastic strain",
-                o.critical_effective_plastic_strain, never, "Failure criterion",
-                "effective plastic strain");
-  refuse_unused(prm, path, "Critical principal stress",
-                o.critical_principal_stress, never_stress, "Failure criterion",
-                "maximum principal stress");
-  refuse_unused(prm, path, "Critical shear strain", o.critical_shear_strain,
-                never, "Failure criterion", "maximum shear strain");
-  refuse_unused(prm, path, "Stabilisation coefficient",
-                o.stabilization_coefficient, 4., "Stabilisation",
-                "bond residual");
-  refuse_unused(prm, path, "Smoothing coefficient", o.smoothing_coefficient,
-                0.1, "Stabilisation", "velocity smoothing");
-  if (o.stabilization == Stabilization::second_gradient &&
-      o.approximation == Approximation::least_squares)
+  if (!o.stores_gradients() && o.stabilization()->needs_second_derivatives())
     throw InputError(path + "/Stabilisation",
-                     "second gradient needs second derivatives of the shape "
-                     "functions: set Approximation = convex exponential");
-  const double least = o.approximation != Approximation::least_squares ? 1.05
-                       : o.kernel_shape == KernelShape::spherical      ? 1.8
-                                                                       : 1.2;
-  if (o.normalized_support < least)
-    throw InputError(
-        path + "/Normalised support size",
-        "is " + prm.get("Normalised support size") +
-            "; this approximation and kernel shape need at least " +
-            std::to_string(least) + ", else particles have too few neighbours");
+                     prm.get("Stabilisation") +
+                         " needs second derivatives of the shape functions: "
+                         "set Approximation = convex exponential");
+  check_support(o, prm, path);
   return o;
-}
-
-double SpgOptions::critical_value() const
-{
-  return failure_criterion == FailureCriterion::effective_plastic_strain
-             ? critical_effective_plastic_strain
-         : failure_criterion == FailureCriterion::principal_stress
-             ? critical_principal_stress
-             : critical_shear_strain;
-}
-
-bool SpgOptions::can_fail() const
-{
-  return critical_value() <
-         (failure_criterion == FailureCriterion::principal_stress ? never_stress
-                                                                  : never);
 }
 } // namespace sabot

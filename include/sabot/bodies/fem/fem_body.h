@@ -10,6 +10,7 @@
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/hex_mesh.h"
+#include "sabot/geometry/local_part.h"
 #include "sabot/materials/material.h"
 
 #include <memory>
@@ -44,6 +45,12 @@ public:
 
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
+  BodyFacts facts() const override;
+  bool is_held() const override;
+  std::vector<SymmetryPlane> planes_of_symmetry() const override
+  {
+    return boundary.planes();
+  }
   std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
@@ -84,9 +91,8 @@ private:
   /** Whether the material has this state variable. */
   bool has_state(const std::string &variable) const;
   void conduct_heat(const double time);
-  /** Sorts the nodes of this rank, owned ones first, and their exchange.
-      @return cells with an owned node, ascending. */
-  std::vector<GlobalIndex> lay_out_nodes(const std::vector<int> &owner);
+  /** The nodes of this rank at rest in place, and their exchange. */
+  void lay_out_nodes(const LocalPart &part, const std::vector<int> &owner);
   /** Cells behind the boundary faces, FemBoundary::no_cell where another rank's
       nodes have it. Kept once found, unless cells erode. */
   const std::vector<std::uint32_t> &cell_of_faces() const;

@@ -50,11 +50,13 @@ public:
       the faces around a node of that of the cells behind them; 1e300 where
       there are no faces.
       @param cell_of  cells behind the faces, see find_cells() */
-  std::vector<double> flow_stress(const std::vector<std::size_t> &some_nodes,
-                                  const std::size_t n_local_nodes,
-                                  const Hexahedra &cells,
-                                  const std::vector<std::uint32_t> &cell_of)
-      const;
+  std::vector<double>
+  flow_stress(const std::vector<std::size_t> &some_nodes,
+              const std::size_t n_local_nodes, const Hexahedra &cells,
+              const std::vector<std::uint32_t> &cell_of) const;
+
+  /** Where the model is cut, the same on every rank. */
+  const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
 
   // Faces come and go where cells erode; see FemErosion.
   std::vector<std::array<std::size_t, 4>> faces; // local nodes

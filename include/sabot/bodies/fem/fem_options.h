@@ -52,6 +52,7 @@ struct FemOptions
   };
   Inversion inversion = Inversion::stop;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  double cell_size = 0.; // that the mesh was asked for [m]
   std::vector<unsigned int> clamped_boundary_ids, symmetry_boundary_ids,
       driven_boundary_ids;
   /** Of the nodes of driven faces; only the held components count. */

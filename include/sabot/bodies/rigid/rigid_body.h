@@ -3,6 +3,7 @@
 
 #include "sabot/bodies/body.h"
 #include "sabot/geometry/hex_mesh.h"
+#include "sabot/geometry/local_part.h"
 #include "sabot/materials/material.h"
 
 #include <memory>
@@ -19,6 +20,7 @@ struct RigidOptions
   /** Prescribed: the initial velocities for ever, whatever the forces. */
   bool is_prescribed = false;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  double cell_size = 0.; // that the mesh was asked for [m]
   std::array<double, 3> angular_velocity{{0., 0., 0.}}; // [1/s], at the start
 
   static void declare_parameters(Parameters &prm);
@@ -67,6 +69,8 @@ public:
 
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
+  BodyFacts facts() const override;
+  bool is_held() const override { return options.is_prescribed; }
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
   ContactSurface contact_surface() const override;
@@ -87,7 +91,11 @@ public:
   const Mat &inertia_tensor() const { return inertia; }
 
 private:
+  /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. */
   Vec spin(const Mat &rotation) const;
+  /** Faces whose nodes are all here, and the mean edge of all faces. */
+  void take_faces(const LocalPart &part);
+  /** Rigid motion of the owned nodes, v = p/m + omega x r. */
   void set_velocities();
   static Mat matrix(const std::array<double, 4> &quaternion);
 

@@ -14,8 +14,9 @@ namespace sabot
 /**
  * The bonds of the owned particles as one compressed list, each row sorted by
  * the global number of the neighbour. A bond is stored from both of its ends;
- * reverse[] leads from one to the other. Rows only get shorter, unless a new
- * list is built (build() and connect(), which keep the residuals).
+ * reverse[] leads from one to the other. Rows only get shorter, unless
+ * connect() takes over new ones. What others keep per bond follows by carry()
+ * after connect() and remove().
  */
 class BondList
 {
@@ -48,16 +49,30 @@ public:
   static std::vector<GlobalIndex>
   ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids);
 
-  /** Take over @p rows when ghosts are numbered; residuals of bonds that were
-      there before are kept. @p global_id of all local particles, owners of the
-      ghosts. Collective. */
+  /** Take over @p rows when ghosts are numbered. @p global_id of all local
+      particles, owners of the ghosts. Collective. */
   void connect(const Rows &rows, const std::vector<GlobalIndex> &global_id,
                const std::vector<int> &ghost_owner, const GlobalIndex n_global,
                MPI_Comm communicator);
 
   /** Remove the bonds with dead[bond] != 0, marked from both ends alike on
-      all ranks. Collective. @return number removed on this rank. */
-  std::size_t remove(const std::vector<char> &dead);
+      all ranks. Collective. @return whether there were any on any rank. */
+  bool remove(const std::vector<char> &dead);
+
+  /** Let an array over bonds follow the last connect() or remove(): values of
+      bonds that stayed move to their new places, new bonds get zeros, ghosts'
+      bonds room. */
+  template <typename Array>
+  void carry(Array &data) const
+  {
+    Array old;
+    old.swap(data);
+    data.resize(n_with_ghosts());
+    for (std::size_t i = 0; i < n_owned; ++i)
+      for (std::size_t b = begin(i); b < end(i); ++b)
+        if (origin[b] != is_new)
+          data[b] = old[origin[b]];
+  }
 
   std::size_t begin(const std::size_t i) const { return row_start[i]; }
   std::size_t end(const std::size_t i) const { return row_start[i] + count[i]; }
@@ -79,9 +94,10 @@ public:
 
   std::vector<std::uint32_t> neighbor; // local index
   std::vector<std::uint32_t> reverse;  // into arrays over n_with_ghosts()
-  std::vector<double> weight;          // symmetric kernel weight
-  std::vector<double> residual_weight; // of |e|^2, symmetric [1/m^2]
-  AlignedVector<StoredVec> residual;   // e [m], [n_with_ghosts()]
+  /** Symmetric weights, set by Approximation::update(): phi, and phi times the
+      mean of |xi|^2 at both ends over |dX|^2 [1/m^2], the weight in units of
+      the kernel's size. */
+  std::vector<double> weight, scaled_weight;
 
   /** Rows, for checkpoints. After overwriting them, call reconnect(). */
   std::vector<std::uint32_t> count;
@@ -90,8 +106,11 @@ public:
 private:
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;
 
+  static constexpr std::uint32_t is_new = 0xffffffffu;
+
   std::vector<std::size_t> row_start;
-  std::vector<GlobalIndex> id; // global numbers of local particles
+  std::vector<std::uint32_t> origin; // before the last change, of carry()
+  std::vector<GlobalIndex> id;       // global numbers of local particles
   std::vector<int> owner_of_ghost;
   GlobalIndex n_total = 0;
   std::size_t n_owned = 0;

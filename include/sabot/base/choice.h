@@ -1,0 +1,71 @@
+#ifndef sabot_base_choice_h
+#define sabot_base_choice_h
+
+#include "sabot/base/registry.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sabot
+{
+/** @p value as a parameter file would have it, without loss of digits. */
+std::string exact_text(const double value);
+
+/**
+ * What the registry makes of the choice @p name with these values of its own
+ * entries and the defaults of the others, without a parameter file: for tests,
+ * problems and benchmarks. Throws InputError for names and values that a file
+ * could not have either.
+ */
+template <typename Product>
+auto choose(const std::string &name,
+            const std::vector<std::pair<std::string, std::string>> &values = {})
+{
+  const auto &entry = Registry<Product>::get(Product::kind, name);
+  Parameters prm;
+  if (entry.declare)
+    entry.declare(prm);
+  for (const auto &value : values)
+    if (!prm.is_declared(value.first) || !prm.set(value.first, value.second))
+      throw InputError(value.first, "cannot be \"" + value.second + "\" for " +
+                                        Product::kind + " " + name);
+  return entry.make(prm, name);
+}
+
+/** Whether @p text says the same as @p standard: the same words, or the same
+    number in another unit; of "never" also any number from 1e10 on, which
+    older files have in its place. */
+bool same_value(const std::string &text, const std::string &standard);
+
+/**
+ * An entry that has no effect with the choice made is a mistake: throws
+ * InputError for the first entry that only choices other than the present one
+ * of @p selector declare and that differs from its default. @p path: of the
+ * subsection, for messages.
+ */
+template <typename Product>
+void refuse_unused(const Parameters &prm, const std::string &path,
+                   const std::string &selector)
+{
+  const std::string chosen = prm.get(selector);
+  Parameters own;
+  Registry<Product>::declare_entries(own, chosen);
+  for (const auto &other : Registry<Product>::entries())
+  {
+    if (other.name == chosen || !other.declare)
+      continue;
+    Parameters theirs;
+    other.declare(theirs);
+    for (const std::string &entry : theirs.entry_names())
+      if (!own.is_declared(entry) &&
+          !same_value(prm.get(entry), theirs.get(entry)))
+        throw InputError(path + "/" + entry, "has no effect with " + selector +
+                                                 " = " + chosen +
+                                                 "; remove it or set " +
+                                                 selector + " = " + other.name);
+  }
+}
+} // namespace sabot
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef sabot_bodies_body_facts_h
+#define sabot_bodies_body_facts_h
+
+#include "sabot/materials/material.h"
+
+#include <array>
+#include <optional>
+
+namespace sabot
+{
+/** A body before the run, as estimates of physics and cost see it. */
+struct BodyFacts
+{
+  const Material *material = nullptr; // of a rigid body: its density only
+  bool deforms = true;
+  bool is_particles = false;
+  bool is_clamped = false;          // somewhere
+  std::array<double, 3> velocity{}; // at the start [m/s]
+  double spacing = 0.;              // of nodes, the finest [m]
+  bool may_fail = false;            // by a criterion, whichever
+  /** Effective plastic strain at which it fails; nothing where another measure
+      decides, or where nothing fails. */
+  std::optional<double> failure_strain;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,76 @@
+#ifndef sabot_bodies_discretization_h
+#define sabot_bodies_discretization_h
+
+#include "sabot/base/parameter_file.h"
+#include "sabot/base/registry.h"
+#include "sabot/bodies/body.h"
+#include "sabot/geometry/shape.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sabot
+{
+/** What a body is built from. */
+struct BodyRequest
+{
+  /** The body's subsection is entered. Not const: what was found out may be
+      entered for the expanded parameters. */
+  Parameters &prm;
+  const ParameterFile &file;
+  std::string path, name; // "Bodies/plate", "plate"
+  int id;                 // number among the bodies
+  std::shared_ptr<const Material> material;
+  const Shape &shape;
+  /** Checked mesh of the shape with about this cell size [m], around the zone
+      that another body takes from it, if any. */
+  std::function<NamedMesh(const double cell_size)> mesh;
+  /** Cells that exist already: those of a zone that follows the mesh of another
+      body, or what such a zone has left of this one. */
+  std::optional<NamedMesh> cells;
+};
+
+/**
+ * How a body is made of items: one choice of "Discretization", with the entries
+ * of such bodies. A new one is one folder with a body, an implementation of
+ * this class, and its registration. Without state.
+ */
+class Discretization
+{
+public:
+  static constexpr const char *kind = "discretization";
+  using Make = std::unique_ptr<Discretization>();
+  virtual ~Discretization() = default;
+
+  /** Declares the entries in the body's subsection; those that name faces say
+      which by @p shape, which is null where the shape is not known. */
+  virtual void declare(Parameters &prm, const Shape *shape) const = 0;
+  /** The body; not collective. Throws InputError, by the entry. */
+  virtual std::unique_ptr<Body> build(BodyRequest &request) const = 0;
+
+  /** Whether particles may take the place of a part of such a body. */
+  virtual bool may_be_carved() const { return false; }
+  /** The name of the body in whose place, within its own shape, this one
+      stands; empty: none. */
+  virtual std::string carved_from(const Parameters &) const { return ""; }
+  /** Size of the cells whose mesh a carved zone follows [m]. */
+  virtual double cell_size(const Parameters &) const { return 0.; }
+  /** A body that takes over the cells of another one has their spacing [m]:
+      enters it, and refuses another one in the file. */
+  virtual void follow_spacing(Parameters &, const ParameterFile &,
+                              const std::string & /*path*/,
+                              const double /*spacing*/) const
+  {
+  }
+};
+
+/** The names of a shape's faces in words; empty where there is no shape. */
+inline std::string face_names(const Shape *const shape)
+{
+  return shape == nullptr ? "" : shape->face_names();
+}
+} // namespace sabot
+
+#endif

@@ -1,0 +1,96 @@
+#ifndef sabot_bodies_spg_approximation_approximation_h
+#define sabot_bodies_spg_approximation_approximation_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/base/types.h"
+#include "sabot/bodies/spg/spg_options.h"
+#include "sabot/kernels/vec.h"
+
+#include <vector>
+
+namespace sabot
+{
+class BondList;
+class GhostExchange;
+class LagrangianKernel;
+struct NodalState;
+struct ParticleFields;
+
+/**
+ * First-order meshfree functions of the particles in the configuration X of the
+ * last kernel update. With xi = H^-1 dX, phi the mean of the spline at both
+ * ends of a bond (so that phi is symmetric):
+ *
+ *   M_N = sum phi dX (x) dX,  g_NJ = phi M_N^-1 dX        (least squares),
+ *   g_NJ = grad Psi_J(X_N), Psi convex                    (stored gradients).
+ *
+ * The moment is judged as sum phi xi (x) xi, in the undeformed shape of the
+ * kernel, where a compressed but complete neighbourhood looks like an intact
+ * one: a direction counts as lost where its eigenvalue is below a fraction of
+ * the intact middle one (doc/theory-spg.md).
+ */
+class Approximation
+{
+public:
+  explicit Approximation(const SpgOptions &options);
+
+  void allocate(const std::size_t n_owned);
+  /** Weights of bonds, moments, lost directions, and where they are stored
+      gradients, for the kernels and positions in @p fields. The first call
+      defines what intact is. @p second_derivatives: where A grad grad Psi_J
+      go, or null. Collective. */
+  void update(BondList &bonds, const ParticleFields &fields,
+              const LagrangianKernel &kernel,
+              AlignedVector<Mat> *second_derivatives);
+  /** Row sums of the mass matrix (Wu & Wu 2018, Eq. 11) of the convex
+      functions as lumped masses of the owned nodes, whose present masses are
+      rho V [kg]. After the first update() only. Collective. */
+  void set_convex_masses(NodalState &nodes, const BondList &bonds,
+                         const GhostExchange &exchange);
+
+  bool stores_gradients() const { return stores; }
+  /** Gradient g of the function of bond @p b's neighbour at its owned particle,
+      @p dX to it, @p moment_inverse of that particle [1/m]. */
+  Vec gradient(const std::size_t b, const double weight,
+               const Mat &moment_inverse, const Vec dX) const
+  {
+    return stores ? shape_gradient[b] : weight * (moment_inverse * dX);
+  }
+  /** Particles whose convex functions did not exist at the last update and that
+      got damped least squares. */
+  std::size_t n_fallbacks() const { return n_fallback; }
+
+  void visit_bonds(StateVisitor &visitor, const BondList &bonds);
+  void visit_state(StateVisitor &visitor);
+
+  // Owned particles
+  AlignedVector<Mat> moment_inverse; // M^-1, lost directions damped [1/m^2]
+  /** Whether the bonds of a particle no longer span space: for what failed
+      metal carries. */
+  std::vector<char> lost_direction;
+  std::vector<double> spread;        // S = sum phi |xi|^2
+  std::vector<double> intact_spread; // S of the start
+  // Per bond, ghosts' bonds included; only where gradients are stored
+  AlignedVector<Vec> shape_gradient; // g [1/m]
+
+private:
+  template <typename Kernel>
+  void find_moments(BondList &bonds, const ParticleFields &fields);
+  void find_gradients(const BondList &bonds, const ParticleFields &fields,
+                      const LagrangianKernel &kernel,
+                      AlignedVector<Mat> *second_derivatives);
+  template <typename Kernel>
+  void find_gradients_with(const BondList &bonds, const ParticleFields &fields,
+                           const LagrangianKernel &kernel,
+                           AlignedVector<Mat> *second_derivatives);
+
+  const SpgOptions::Approximation functions;
+  const bool stores, has_tensor_kernel;
+  std::vector<double> intact_eigenvalue; // middle one of the intact moment
+  std::vector<double> shape_value, own_shape_value; // for masses, then empty
+  bool has_masses = false; // set_convex_masses() has been
+  std::size_t n_fallback = 0;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,67 @@
+#ifndef sabot_bodies_spg_approximation_lagrangian_kernel_h
+#define sabot_bodies_spg_approximation_lagrangian_kernel_h
+
+#include "sabot/base/types.h"
+#include "sabot/bodies/spg/spg_options.h"
+#include "sabot/geometry/particle_cloud.h"
+
+#include <array>
+
+namespace sabot
+{
+class GhostExchange;
+struct ParticleFields;
+
+/**
+ * The kernels of the particles as they move with the material: H = F H_0, with
+ * limits of the stretch that only catch degenerate particles, updated from time
+ * to time. Between updates the functions are those of the last one (adaptive
+ * anisotropic Lagrangian kernel, Wu & Wu 2018, section 3).
+ */
+class LagrangianKernel
+{
+public:
+  LagrangianKernel(const SpgOptions &options, const ParticleCloud &cloud);
+
+  /** Semi-axes of the kernels at the start: one matrix for all particles of a
+      regular lattice, else one each. */
+  AlignedVector<Mat> initial_kernels(const ParticleCloud &cloud) const;
+  /** Keep those of the owned particles, unless one does for all. */
+  void distribute(const AlignedVector<Mat> &kernels,
+                  const std::vector<GlobalIndex> &owned);
+  /** Kernels of owned and ghost particles at the start. Collective. */
+  void start(ParticleFields &fields, const GhostExchange &exchange) const;
+
+  /** Whether a regular update is due by @p step. */
+  bool is_regular_step(const unsigned int step) const
+  {
+    return step % interval == 0;
+  }
+  /** Whether any owned particle's Green strain since the last update reaches
+      the limit; rotation needs no update. */
+  bool has_strained(const ParticleFields &fields) const;
+  /** Whether a particle has been stretched or flattened by so much that the
+      update cannot wait. @p change: largest of |F|^2 - 2 and |F^-1|^2 - 2. */
+  bool has_changed(const double change) const;
+  /** Let kernels, volumes and F of the owned particles follow what happened
+      since the last update, which starts anew. */
+  void follow(ParticleFields &fields) const;
+
+  /** Edge of the cube as large as the cell of an owned particle's lattice at
+      the start [m]; mean_spacing() in a regular lattice. */
+  double local_spacing(const std::size_t i) const;
+  double mean_spacing() const { return mean; }
+  double support() const { return normalized_support; } // radius over spacing
+
+private:
+  const std::array<double, 3> spacing; // [m] per axis
+  const double mean;                   // [m]
+  const double normalized_support;
+  const bool is_regular; // one kernel at the start for all
+  const unsigned int interval;
+  const double least_strain, largest_stretch;
+  AlignedVector<Mat> initial; // H of the start, owned, unless regular
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,50 @@
+#ifndef sabot_bodies_spg_failure_residual_strength_h
+#define sabot_bodies_spg_failure_residual_strength_h
+
+#include "sabot/materials/material.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace sabot
+{
+class Parameters;
+
+/** Which points of a batch have failed, and where their losses go: [n] each. */
+struct FailedPoints
+{
+  const char *is_failed;
+  const double *half_volume; // half of the mean volume of the step [m^3]
+  double *loss;              // energy let go, part of the internal one [J]
+};
+
+/**
+ * What failed metal carries: the stress of particles whose remaining bonds no
+ * longer span space (Approximation::lost_direction). The law and the work of
+ * the step are outside; a rule sees one batch with at least one failed point
+ * and must leave the others exactly as the law does. It may call the law more
+ * than once on copies, cut or scale the stress afterwards, and count what it
+ * lets go: the work of sigma along the part of the strain increment that the
+ * law did not see, for example. One file a rule.
+ */
+class ResidualStrength
+{
+public:
+  static constexpr const char *kind = "rule for failed metal";
+  /** Makes the rule of one body, which may keep scratch space. */
+  using Maker = std::function<std::unique_ptr<ResidualStrength>()>;
+  using Make = Maker(const Parameters &, const std::string &path);
+
+  virtual ~ResidualStrength() = default;
+
+  /** Stress and state at the end of the step, in place of law.update(). */
+  virtual void update(const Material &law, const MaterialBatch &points,
+                      const FailedPoints &failed) = 0;
+  /** Take away what a particle cannot bear that failed between two steps.
+      @p stress in the order of n_symmetric [Pa]. */
+  virtual void release(double stress[n_symmetric]) const = 0;
+};
+} // namespace sabot
+
+#endif

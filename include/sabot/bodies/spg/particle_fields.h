@@ -1,0 +1,64 @@
+#ifndef sabot_bodies_spg_particle_fields_h
+#define sabot_bodies_spg_particle_fields_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/base/types.h"
+#include "sabot/kernels/vec.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * What an SPG body knows of its particles beside their motion (NodalState) and
+ * their material (MaterialPoints), one array per quantity. The configuration of
+ * the last kernel update is where the meshfree functions live, so
+ *
+ *   F = F_inc F_ref,   dV = J_inc V_ref,
+ *
+ * F_inc incremental, since that update; F_ref and V_ref as of it. SI units.
+ */
+struct ParticleFields
+{
+  // Owned particles, then ghosts
+  AlignedVector<Vec> kernel_reference_position; // X of the last kernel update
+  /** Kernel of each particle as the matrix H whose columns are its semi-axes:
+      a neighbour has weight where |H^-1 dX| < 1 [m]. */
+  AlignedVector<Mat> kernel;
+  /**
+   * What a particle's stress does to its neighbours, [n] by columns in row[]:
+   * Q = V P M^-1 with least squares, V P with stored shape gradients [J, J/m];
+   * P the nominal stress. The fourth lane of row[0] carries what a
+   * stabilization wants its neighbours to know, for the bond residual the
+   * stiffness theta k [N m^2/m^2].
+   */
+  AlignedVector<Mat> generalized_stress;
+
+  // Owned particles
+  std::vector<double> reference_volume;                     // V_0 [m^3]
+  std::vector<double> kernel_reference_volume;              // V_ref [m^3]
+  AlignedVector<Mat> incremental_deformation_gradient;      // F_inc
+  AlignedVector<Mat> kernel_reference_deformation_gradient; // F_ref
+  /** Dilatational modulus over the one at rest; empty unless the material
+      stiffens. */
+  std::vector<double> stiffening;
+  AlignedVector<Vec> own_force; // [N], without what couplings added
+
+  /** Undeformed particles with these volumes [m^3]. */
+  void allocate(const std::vector<double> &volume, const bool stiffens);
+  /** Room for ghosts: @p n_local particles, owned ones included. */
+  void resize(const std::size_t n_local);
+
+  /** Total F of an owned particle. */
+  Mat deformation_gradient(const std::size_t i) const
+  {
+    return incremental_deformation_gradient[i] *
+           kernel_reference_deformation_gradient[i];
+  }
+
+  void visit_state(StateVisitor &visitor);
+};
+} // namespace sabot
+
+#endif

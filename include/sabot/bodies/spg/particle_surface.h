@@ -1,0 +1,71 @@
+#ifndef sabot_bodies_spg_particle_surface_h
+#define sabot_bodies_spg_particle_surface_h
+
+#include "sabot/base/types.h"
+#include "sabot/bodies/body.h"
+#include "sabot/bodies/velocity_constraints.h"
+#include "sabot/geometry/particle_cloud.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+class Approximation;
+class LagrangianKernel;
+struct ParticleFields;
+struct SpgOptions;
+
+/**
+ * Where particles lie on the surface of their body: faces, outward normals,
+ * planes of symmetry; and what they show to others without having faces, their
+ * part of a surface and of a volume.
+ */
+class ParticleSurface
+{
+public:
+  /** Throws InputError where a face of symmetry is not a plane across an axis.
+      @p path: of the body. */
+  ParticleSurface(const ParticleCloud &cloud, const SpgOptions &options,
+                  const std::string &path);
+
+  /** Keep the particles with these global numbers, ascending; hold their
+      velocities across planes of symmetry and on clamped faces. */
+  void distribute(const ParticleCloud &cloud,
+                  const std::vector<GlobalIndex> &owned,
+                  const std::uint32_t clamped_faces,
+                  VelocityConstraints &constraints);
+
+  /** Local indices of owned particles on the faces of @p faces (bits as in
+      ParticleCloud::on_face). */
+  std::vector<std::size_t> particles_on(const std::uint32_t faces) const;
+
+  /** All particles: any may come to lie open, so all may touch faces. */
+  ContactSurface contact_surface(const double bulk_modulus,
+                                 const double spacing) const;
+  /** Owned particle @p i, @p F its deformation gradient; normals go with F^-T,
+      areas with det F over the length of F^T n. */
+  SurfacePoint point(const std::size_t i, const Mat &F,
+                     const double spacing) const;
+
+private:
+  /** Axes across which owned particle @p i lies on a plane of symmetry, a bit
+      each. */
+  unsigned int symmetry_axes(const std::size_t i) const;
+
+  const std::vector<int> face_axis; // across each boundary id, -1: not a plane
+  const std::uint32_t symmetry_faces;
+  std::vector<SymmetryPlane> symmetry_planes;
+  std::vector<std::uint32_t> on_face; // owned
+  AlignedVector<Vec> outward;         // owned, at the start, outward_normals()
+};
+
+/** Owned particle @p i as part of a volume (Body::volume_point): the shape of
+    its kernel, or of a ball where it lost a direction and has none. */
+VolumePoint particle_volume(const std::size_t i, const ParticleFields &fields,
+                            const Approximation &approximation,
+                            const LagrangianKernel &kernel);
+} // namespace sabot
+
+#endif

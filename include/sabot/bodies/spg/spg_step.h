@@ -1,0 +1,164 @@
+#ifndef sabot_bodies_spg_spg_step_h
+#define sabot_bodies_spg_spg_step_h
+
+#include "sabot/base/ghost_exchange.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/bodies/spg/approximation/approximation.h"
+#include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/motion_kernels.h"
+#include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/spg_parts.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+/** What the first stage reads and writes of @p body. */
+MotionViews motion_views(SpgParts &body, const double dt);
+
+/** Third stage: rotation, law (or what failed metal carries) and work of the
+    particles of @p range over @p dt > 0. */
+void update_stress(const ParticleRange &range, SpgParts &body, const double dt);
+
+/**
+ * Fourth stage: what the stress of a particle does to its neighbours, with
+ * sigma - q 1 and what the form adds to it,
+ *
+ *   V P = J V_ref (sigma + form) F^-T,  Q = V P M^-1   (least squares).
+ */
+template <bool stored_gradients, typename Form>
+inline void generalize_stress(const ParticleRange &range, const StepWork &work,
+                              SpgParts &body, Form &form)
+{
+  const MaterialPoints &points = body.points;
+  const double *const reference_volume = body.fields.reference_volume.data();
+  const Mat *const moment_inverse = body.approximation.moment_inverse.data();
+  Mat *const generalized_stress = body.fields.generalized_stress.data();
+  for (std::size_t i = range.begin; i < range.end; ++i)
+  {
+    const std::size_t k = i - range.begin;
+    const Mat sigma = points.total_stress(i, work.viscous_pressure[k]);
+    const double V = work.jacobian[k] * reference_volume[i]; // J V
+    Mat spatial = V * sigma;
+    const double stiffness = form.add_stress(i, k, V, work, spatial);
+    Mat moment = spatial * work.inverse_transpose[k];
+    if constexpr (!stored_gradients)
+      moment = moment * moment_inverse[i];
+    generalized_stress[i] = transpose(moment);
+    generalized_stress[i].row[0][3] = stiffness;
+  }
+}
+
+/** What gather_forces() reads; owned particles and ghosts but for bonds. */
+struct ForceViews
+{
+  const BondList &bonds;
+  const Vec *kernel_position;    // X [m]
+  const Mat *generalized_stress; // Q [J/m^2] or V P [J], by columns
+  const Vec *shape_gradient;     // g, where gradients are stored [1/m]
+  std::size_t n_owned;
+};
+
+/**
+ * Last stage: every owned particle gathers its own force, neighbours in global
+ * order, so that results do not depend on the number of ranks,
+ *
+ *   f_N = sum_J phi (Q_N + Q_J) dX             (least squares),
+ *   f_N = sum_J [ V_N P_N g_NJ - V_J P_J g_JN ]  (stored gradients),
+ *
+ * and per bond what the form adds by its neighbours' fourth lanes.
+ */
+template <bool stored_gradients, typename Form>
+inline void gather_forces(const ForceViews &in, const Form &form,
+                          Vec *const force)
+{
+  const Vec *const X = in.kernel_position;
+  const std::uint32_t *const neighbor = in.bonds.neighbor.data();
+  const std::uint32_t *const reverse = in.bonds.reverse.data();
+  const double *const weight = in.bonds.weight.data();
+  const Vec *const gradient = in.shape_gradient;
+  const Mat *const stress = in.generalized_stress;
+  const auto bond_force = form.bond_forces(in.bonds);
+  for (std::size_t i = 0; i < in.n_owned; ++i)
+  {
+    const Mat Q = stress[i];
+    const double own_stiffness = Q.row[0][3];
+    const Vec Xi = X[i];
+    Vec f = {};
+    const std::size_t last = in.bonds.end(i);
+    for (std::size_t b = in.bonds.begin(i); b < last; ++b)
+    {
+      const std::uint32_t j = neighbor[b];
+      const Mat &QJ = stress[j];
+      if constexpr (stored_gradients)
+        f += multiply_columns(Q, gradient[b]) -
+             multiply_columns(QJ, gradient[reverse[b]]);
+      else
+        f += multiply_columns(Q + QJ, weight[b] * (X[j] - Xi));
+      if constexpr (Form::has_bond_forces)
+        f += bond_force(b, reverse[b], own_stiffness, QJ.row[0][3]);
+    }
+    f[3] = 0.;
+    force[i] = f;
+  }
+}
+
+/**
+ * The SPG step: forces of the owned particles from the positions of all, their
+ * material advanced by @p dt (0: forces only). Particles go through in batches
+ * that stay in the first-level cache; a form of stabilization instantiates this
+ * with itself at the bottom of its own file. Beside Stabilization it has
+ *
+ *   static constexpr bool has_bond_forces;
+ *   void trial(range, body);         // its trial stress, extra_square
+ *   double add_stress(i, k, V, work, spatial); // its part of V sigma; returns
+ *                                    // what neighbours get to know
+ *   void exchange(body);             // what belongs to ghosts' bonds
+ *   auto bond_forces(bonds);         // functor of one bond's force
+ *   void add_forces(body);           // what is not a sum over one ring
+ *
+ * Collective.
+ */
+template <bool stored_gradients, typename Form>
+void spg_step(SpgParts &body, Form &form, const double dt)
+{
+  const std::size_t n = body.nodes.n_owned;
+  StepWork &work = body.work;
+  const MotionViews motion = motion_views(body, dt);
+  for (std::size_t begin = 0; begin < n; begin += spg_batch_size)
+  {
+    const ParticleRange range{begin, std::min(begin + spg_batch_size, n)};
+    // Positions -> gradients: strain, spin, volume, viscosity, stable step.
+    follow_motion<stored_gradients>(range, motion, work, body.watch);
+    // The stabilization's trial stress, which shares the yield condition.
+    form.trial(range, body);
+    // Material: rotation, law, work.
+    if (dt > 0.)
+      update_stress(range, body, dt);
+    else
+      std::fill_n(work.return_factor, range.size(), 1.);
+    // Stress -> what it does to the neighbours.
+    generalize_stress<stored_gradients>(range, work, body, form);
+  }
+  // Neighbours on other ranks.
+  body.exchange.update(body.fields.generalized_stress.data());
+  form.exchange(body);
+  // Every particle gathers its own force.
+  gather_forces<stored_gradients>(
+      ForceViews{body.bonds, body.fields.kernel_reference_position.data(),
+                 body.fields.generalized_stress.data(),
+                 body.approximation.shape_gradient.data(), n},
+      form, body.nodes.force.data());
+  form.add_forces(body);
+}
+
+/** spg_step() by how the body's approximation has its gradients. */
+template <typename Form>
+void run_spg_step(SpgParts &body, Form &form, const double dt)
+{
+  body.approximation.stores_gradients() ? spg_step<true>(body, form, dt)
+                                        : spg_step<false>(body, form, dt);
+}
+} // namespace sabot
+
+#endif

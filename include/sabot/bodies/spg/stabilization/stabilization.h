@@ -1,0 +1,99 @@
+#ifndef sabot_bodies_spg_stabilization_stabilization_h
+#define sabot_bodies_spg_stabilization_stabilization_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/base/types.h"
+#include "sabot/kernels/vec.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+class BondList;
+class Parameters;
+struct SpgParts;
+
+/**
+ * What keeps the sawtooth modes of direct nodal integration under control. A
+ * form is one file: its parameters, what it keeps per bond and particle, its
+ * part of the energy, of the checkpoint, of the bound of the stable step and of
+ * the linearized body, and, at the bottom, the SPG step instantiated with the
+ * form itself (spg_step.h), so that the choice is made once per step and the
+ * loop stays fused.
+ *
+ * All functions act on the whole body, on all ranks alike; those that exchange
+ * ghosts say "collective".
+ */
+class Stabilization
+{
+public:
+  static constexpr const char *kind = "stabilization";
+  /** Makes the form of one body; parameters are read before there is one. */
+  using Maker = std::function<std::unique_ptr<Stabilization>()>;
+  using Make = Maker(const Parameters &, const std::string &path);
+
+  virtual ~Stabilization() = default;
+
+  /** Whether it needs stored shape gradients and second_derivatives(). */
+  virtual bool needs_second_derivatives() const { return false; }
+  /** Where the approximation puts A grad grad Psi_J of each bond, by columns
+      over BondList::n_with_ghosts() [1/m]; null where the form needs none. */
+  virtual AlignedVector<Mat> *second_derivatives() { return nullptr; }
+
+  /** Once, before anything else, for the owned particles. */
+  virtual void allocate(const SpgParts &body);
+  /** The list of bonds has changed: carry over what belongs to those that
+      stayed. */
+  virtual void carry_bonds(const BondList &) {}
+  /** There are other ghosts; their positions are up to date. */
+  virtual void renew_ghosts(const SpgParts &) {}
+
+  /** What holds a particle's bonds now, positions as at the last force
+      evaluation: forces of owned nodes [N], stress and energies advanced by
+      @p dt [s] (0: forces only). Collective. */
+  virtual void compute_forces(SpgParts &body, const double dt) = 0;
+  /** What is done to the motion between two steps; @p step: the last one's
+      number. Collective. */
+  virtual void after_step(SpgParts &, const unsigned int) {}
+
+  /** A kernel update begins; bonds, kernels and functions are the old ones. */
+  virtual void begin_kernel_update(const SpgParts &) {}
+  /** Bonds, moments and functions are new ones, at the start and after every
+      kernel update. */
+  virtual void follow_functions(const SpgParts &) {}
+  /** The end of a kernel update: the reference configuration is the present
+      one. @p was_lost: which particles had lost a direction before. */
+  virtual void end_kernel_update(const SpgParts &, const std::vector<char> &) {}
+
+  /** Energy that an owned particle's bonds hold and would lose with them [J],
+      0 where the form holds none. */
+  virtual double held_energy(const SpgParts &, const std::size_t) const
+  {
+    return 0.;
+  }
+  /** Work done on the form by each owned particle so far [J]. */
+  const std::vector<double> &work() const { return done; }
+
+  /** Add the form's part of the row sums of K [N/m]: the Gershgorin bound of
+      the stable step. Collective. */
+  virtual void add_row_sums(const SpgParts &, std::vector<double> &) const {}
+  /** f = -K v of the body linearized at rest in the configuration of the last
+      kernel update, elastic moduli, the form included; @p motion with ghosts.
+      Collective. */
+  virtual void apply_linearized(const SpgParts &body,
+                                const AlignedVector<Vec> &motion,
+                                AlignedVector<Vec> &force) = 0;
+
+  /** What belongs to bonds; ghosts' bonds come anew. Collective. */
+  virtual void visit_bonds(StateVisitor &, const SpgParts &) {}
+  virtual void visit_state(StateVisitor &visitor);
+
+protected:
+  std::vector<double> done; // [J] per owned particle
+};
+} // namespace sabot
+
+#endif

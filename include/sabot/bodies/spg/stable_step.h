@@ -1,0 +1,68 @@
+#ifndef sabot_bodies_spg_stable_step_h
+#define sabot_bodies_spg_stable_step_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/base/types.h"
+
+#include <mpi.h>
+
+#include <limits>
+#include <vector>
+
+namespace sabot
+{
+class Stabilization;
+struct SpgParts;
+
+/**
+ * Stable step of each particle in the configuration of the last kernel update:
+ * the Gershgorin bound of the largest eigenvalue of M^-1 K, with the row sums
+ * of
+ *
+ *   K_IK = sum_N V_N rho c^2 g_NI g_NK + the stabilization's part,
+ *
+ * times a factor that says by how much the bound is too short. That factor is
+ * measured on the whole body (Lanczos) and holds for particles whose bonds are
+ * all there; the others keep the bound.
+ */
+class SpgStableStep
+{
+public:
+  void allocate(const std::size_t n_owned) { step.resize(n_owned); }
+
+  /** Bound of each owned particle, with the present factor. Collective. */
+  void estimate(const SpgParts &body, const Stabilization &form);
+  /** Measure the factor anew. @p step_number: now; 0: the body's first, from
+      which later factors may not go up. Collective. */
+  void calibrate(const SpgParts &body, Stabilization &form,
+                 const std::size_t step_number, const bool is_first,
+                 MPI_Comm communicator);
+  /** Whether the last calibration is old, or the bound itself has moved.
+      Collective. */
+  bool calibration_is_due(const SpgParts &body, const std::size_t step_number,
+                          MPI_Comm communicator) const;
+
+  /** Stable steps of owned particles [s], before what the state adds. */
+  const double *data() const { return step.data(); }
+
+  void visit_state(StateVisitor &visitor);
+
+private:
+  double least_bound(const SpgParts &body, MPI_Comm communicator) const;
+
+  std::vector<double> step; // [s]
+  double factor = 1.;       // proven part by which the bound is too short
+  double initial_factor = std::numeric_limits<double>::max();
+  std::size_t last_calibration = 0; // step
+  double calibrated_bound = 0.;     // least bound, at the last calibration [s]
+};
+
+/** Largest frequency of the linearized body at rest [rad/s] by @p n Lanczos
+    iterations on M^-1 K, from below: the Krylov space of the power iteration,
+    of which it takes the best vector. The same on every number of ranks.
+    Collective. */
+double largest_frequency(const SpgParts &body, Stabilization &form,
+                         const unsigned int n, MPI_Comm communicator);
+} // namespace sabot
+
+#endif

@@ -1,0 +1,17 @@
+#ifndef sabot_geometry_face_names_h
+#define sabot_geometry_face_names_h
+
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/** Numbers of the faces (or axes) that @p text lists, separated by commas,
+    among the @p allowed ones, which are numbered in order. Throws InputError
+    for the entry @p path with the list of allowed names for any other. */
+std::vector<unsigned int> face_ids(const std::string &path,
+                                   const std::string &text,
+                                   const std::vector<std::string> &allowed);
+} // namespace sabot
+
+#endif

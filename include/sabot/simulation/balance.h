@@ -1,0 +1,53 @@
+#ifndef sabot_simulation_balance_h
+#define sabot_simulation_balance_h
+
+#include "sabot/simulation/scene.h"
+
+#include <array>
+#include <string>
+
+namespace sabot
+{
+/**
+ * Watches what a run must keep: energy, and the momentum of a free scene.
+ * Residuals are relative to the largest energy so far and to the momentum that
+ * the bodies had at the start, sum over bodies of sqrt(2 E_kin m).
+ */
+class Balance
+{
+public:
+  Balance(const Scene &scene, MPI_Comm communicator);
+
+  /** Take the present values for those that must stay. Collective. */
+  void start();
+  /** Look now, at @p time [s] after a step of @p dt [s]; 0: before the first.
+      Collective. */
+  void look(const double time, const double dt);
+  /** Throws PhysicsError when the energy residual is above @p limit; says which
+      term is largest and, by @p limiter, what limited the step. */
+  void check(const double limit, const std::string &limiter) const;
+  /** Fill row() with the values of a resumed run, leaving all else. */
+  void fill_row(const double time, const double dt);
+  void visit_state(StateVisitor &visitor);
+
+  /** Time, step size, all terms of the ledger, total and residual. */
+  const Measures &row() const { return ledger; }
+  double last_residual() const { return last; }
+  double largest_residual() const { return largest; }
+  double largest_momentum_residual() const { return largest_momentum; }
+
+private:
+  double total_energy();
+  double momentum_residual() const;
+
+  const Scene &scene;
+  MPI_Comm communicator;
+  Measures ledger;
+  double initial_energy = 0., largest_energy = 0.; // [J]
+  double last = 0., largest = 0.;
+  std::array<double, 3> initial_momentum{}; // [kg m/s]
+  double momentum_scale = 0., largest_momentum = 0.;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,46 @@
+#ifndef sabot_simulation_quantity_of_interest_h
+#define sabot_simulation_quantity_of_interest_h
+
+#include "sabot/base/registry.h"
+#include "sabot/bodies/body.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace sabot
+{
+/** What a quantity of interest is built from; its subsection is entered. */
+struct QuantityRequest
+{
+  const Parameters &prm;
+  std::string path, name; // "Quantities/depth", "depth"
+  /** The body that the entry @p entry names; InputError where there is none. */
+  std::function<const Body &(const std::string &entry)> body;
+};
+
+/**
+ * A number that a scene reports over time and in result.json. A new one is one
+ * file: a class with the work, its entries, and on its last line its
+ * registration,
+ *
+ *     const Registry<QuantityOfInterest>::Add registered(
+ *         {"velocity", "of the body's center of mass ...", declare, make});
+ */
+class QuantityOfInterest
+{
+public:
+  static constexpr const char *kind = "quantity of interest";
+  /** Reads its entries; throws InputError, by the entry. */
+  using Make = std::unique_ptr<QuantityOfInterest>(const QuantityRequest &);
+  virtual ~QuantityOfInterest() = default;
+
+  /** The value now, in SI, the same on every rank. Collective. */
+  virtual double value() const = 0;
+  virtual std::string unit() const = 0;
+
+  std::string name; // in the history and in result.json
+};
+} // namespace sabot
+
+#endif

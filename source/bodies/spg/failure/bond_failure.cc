@@ -1,0 +1,106 @@
+// Bonds that fail: found once, removed once, counted once.
+#include "sabot/bodies/spg/failure/bond_failure.h"
+
+#include "sabot/base/ghost_exchange.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/spg_options.h"
+
+namespace sabot
+{
+BondFailure::BondFailure(const SpgOptions &options)
+    : criterion(options.failure_criterion),
+      critical_stretch(options.critical_stretch),
+      interval(options.failure_check_interval),
+      remembers_pairs(options.neighbor_policy ==
+                      SpgOptions::NeighborPolicy::search)
+{
+}
+
+void BondFailure::allocate(const std::size_t n_owned)
+{
+  n_failed.assign(n_owned, 0);
+  loss.assign(n_owned, 0.);
+  if (remembers_pairs)
+    failed_pairs.resize(n_owned);
+}
+
+bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
+                       const ParticleFields &fields,
+                       const MaterialPoints &points,
+                       const GhostExchange &exchange)
+{
+  if (!criterion->can_be_met())
+    return false;
+  measure.resize(nodes.size());
+  criterion->measure(points, fields, measure.data());
+  exchange.update(measure.data());
+  // Only bonds with a strained end can fail (their mean exceeds the limit).
+  const double critical = criterion->critical_value(),
+               square = critical_stretch * critical_stretch;
+  is_marked.assign(bonds.capacity(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    {
+      const std::uint32_t j = bonds.neighbor[b];
+      if (measure[i] + measure[j] <= 2. * critical)
+        continue;
+      const Vec now = nodes.position[j] - nodes.position[i],
+                original =
+                    nodes.reference_position[j] - nodes.reference_position[i];
+      if (norm_square(now) > square * norm_square(original))
+        is_marked[b] = any = true;
+    }
+  return any;
+}
+
+bool BondFailure::remove(const NodalState &nodes, BondList &bonds)
+{
+  if (!criterion->can_be_met())
+    return false;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      if (is_marked[b])
+      {
+        ++n_failed[i];
+        if (remembers_pairs)
+          failed_pairs[i].push_back(nodes.global_id[bonds.neighbor[b]]);
+      }
+  return bonds.remove(is_marked);
+}
+
+double BondFailure::failed_fraction(const BondList &bonds,
+                                    const std::size_t i) const
+{
+  const double all = bonds.n_bonds(i) + n_failed[i];
+  return all > 0. ? n_failed[i] / all : 0.;
+}
+
+void BondFailure::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_array("failed bonds", n_failed);
+  if (remembers_pairs)
+  {
+    std::vector<std::uint32_t> counts;
+    std::vector<GlobalIndex> pairs;
+    for (const auto &of_particle : failed_pairs)
+    {
+      counts.push_back(of_particle.size());
+      pairs.insert(pairs.end(), of_particle.begin(), of_particle.end());
+    }
+    visitor.visit_array("failed pair counts", counts);
+    visitor.visit_resized("failed pairs", pairs);
+    if (visitor.is_restoring())
+    {
+      auto pair = pairs.begin();
+      for (std::size_t i = 0; i < counts.size(); ++i)
+      {
+        failed_pairs[i].assign(pair, pair + counts[i]);
+        pair += counts[i];
+      }
+    }
+  }
+  visitor.visit_array("failure loss", loss);
+}
+} // namespace sabot

@@ -1,0 +1,135 @@
+// The pieces that bonds still hold together.
+#include "sabot/bodies/spg/failure/fragments.h"
+
+#include "sabot/base/exact_sum.h"
+#include "sabot/base/ghost_exchange.h"
+#include "sabot/bodies/spg/bond_list.h"
+
+#include <algorithm>
+#include <map>
+
+namespace sabot
+{
+std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
+                                         const BondList &bonds,
+                                         const GhostExchange &exchange,
+                                         MPI_Comm communicator)
+{
+  // Within the rank by joining, then across ranks until nothing changes.
+  const std::size_t n = nodes.n_owned;
+  std::vector<std::uint32_t> parent(n);
+  for (std::size_t i = 0; i < n; ++i)
+    parent[i] = i;
+  const auto root = [&](std::uint32_t i)
+  {
+    while (parent[i] != i)
+      i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      if (bonds.neighbor[b] < n)
+      {
+        const std::uint32_t a = root(i), c = root(bonds.neighbor[b]);
+        parent[std::max(a, c)] = std::min(a, c);
+      }
+  // Owned numbers ascend, so a root bears the least number of its piece.
+  std::vector<GlobalIndex> label(nodes.global_id);
+  for (int changed = 1; changed != 0;)
+  {
+    changed = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      label[i] = label[root(i)];
+    exchange.update(label.data());
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+        if (label[bonds.neighbor[b]] < label[root(i)])
+        {
+          label[root(i)] = label[bonds.neighbor[b]];
+          changed = 1;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, communicator);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    label[i] = label[root(i)];
+  label.resize(n);
+  return label;
+}
+
+namespace
+{
+struct Sums
+{
+  GlobalIndex n = 0;
+  ExactSum mass, momentum[3];
+};
+
+/** Add up the sums of all ranks: all learn all labels, then add in the order of
+    labels. */
+void reduce(std::map<GlobalIndex, Sums> &local, MPI_Comm communicator)
+{
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  if (n_ranks == 1)
+    return;
+  std::vector<GlobalIndex> mine;
+  for (const auto &entry : local)
+    mine.push_back(entry.first);
+  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
+  const int n_mine = mine.size();
+  MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
+  for (int r = 1; r < n_ranks; ++r)
+    starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<GlobalIndex> all(starts.back() + counts.back());
+  MPI_Allgatherv(mine.data(), n_mine, MPI_INT64_T, all.data(), counts.data(),
+                 starts.data(), MPI_INT64_T, communicator);
+  for (const GlobalIndex l : all)
+    local[l];
+  std::vector<ExactSum *> sums;
+  std::vector<GlobalIndex> sizes;
+  for (auto &entry : local)
+  {
+    sums.push_back(&entry.second.mass);
+    for (ExactSum &s : entry.second.momentum)
+      sums.push_back(&s);
+    sizes.push_back(entry.second.n);
+  }
+  ExactSum::reduce(sums, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, sizes.data(), sizes.size(), MPI_INT64_T, MPI_SUM,
+                communicator);
+  std::size_t k = 0;
+  for (auto &entry : local)
+    entry.second.n = sizes[k++];
+}
+} // namespace
+
+std::vector<Fragment> find_fragments(const NodalState &nodes,
+                                     const std::vector<GlobalIndex> &label,
+                                     MPI_Comm communicator)
+{
+  std::map<GlobalIndex, Sums> sums;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    Sums &s = sums[label[i]];
+    ++s.n;
+    s.mass.add(nodes.lumped_mass[i]);
+    for (int d = 0; d < 3; ++d)
+      s.momentum[d].add(nodes.lumped_mass[i] * nodes.velocity[i][d]);
+  }
+  reduce(sums, communicator);
+  std::vector<Fragment> pieces;
+  for (const auto &entry : sums)
+  {
+    Fragment f;
+    f.n_particles = entry.second.n;
+    f.mass = entry.second.mass.value();
+    for (int d = 0; d < 3; ++d)
+      f.velocity[d] = entry.second.momentum[d].value() / f.mass;
+    pieces.push_back(f);
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Fragment &a, const Fragment &b)
+                   { return a.mass > b.mass; });
+  return pieces;
+}
+} // namespace sabot

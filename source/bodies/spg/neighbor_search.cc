@@ -1,0 +1,135 @@
+// Search for new neighbours among all particles of the body.
+#include "sabot/bodies/spg/neighbor_search.h"
+
+#include "sabot/base/nodal_state.h"
+#include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/spg_options.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+namespace
+{
+/** What every rank learns of every particle; plain bytes for MPI. */
+struct Item
+{
+  GlobalIndex id;
+  GlobalIndex is_damaged;
+  double position[3], to_kernel[9]; // x, H^-1
+};
+
+std::vector<Item> gather_items(const NodalState &nodes,
+                               const ParticleFields &fields,
+                               const BondFailure &failure,
+                               const GlobalIndex n_global,
+                               MPI_Comm communicator)
+{
+  const std::size_t n = nodes.n_owned;
+  std::vector<Item> mine(n), all(n_global);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    mine[i].id = nodes.global_id[i];
+    mine[i].is_damaged = failure.n_failed[i] > 0;
+    const Mat inverse_kernel = inverse(fields.kernel[i]);
+    for (int d = 0; d < 3; ++d)
+    {
+      mine[i].position[d] = nodes.position[i][d];
+      for (int e = 0; e < 3; ++e)
+        mine[i].to_kernel[3 * d + e] = inverse_kernel(d, e);
+    }
+  }
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
+  const int bytes = n * sizeof(Item);
+  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
+  for (int r = 1; r < n_ranks; ++r)
+    starts[r] = starts[r - 1] + counts[r - 1];
+  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(),
+                 starts.data(), MPI_BYTE, communicator);
+  std::sort(all.begin(), all.end(),
+            [](const Item &a, const Item &b) { return a.id < b.id; });
+  return all;
+}
+
+bool is_in_kernel(const Item &centre, const Vec dX, const bool cubic)
+{
+  double square = 0., largest = 0.;
+  for (int d = 0; d < 3; ++d)
+  {
+    const double *const row = &centre.to_kernel[3 * d];
+    const double xi = row[0] * dX[0] + row[1] * dX[1] + row[2] * dX[2];
+    square += xi * xi;
+    largest = std::max(largest, xi * xi);
+  }
+  return (cubic ? largest : square) < 1. - 1e-9;
+}
+
+/** Longest semi-axis of any kernel [m]. Collective. */
+double kernel_reach(const NodalState &nodes, const ParticleFields &fields,
+                    MPI_Comm communicator)
+{
+  double reach = 0.;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    const Mat &H = fields.kernel[i];
+    reach = std::max({reach, norm(H.row[0]), norm(H.row[1]), norm(H.row[2])});
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &reach, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return reach;
+}
+} // namespace
+
+BondList::Rows search_neighbors(const SpgOptions &options,
+                                const NodalState &nodes, const BondList &bonds,
+                                const ParticleFields &fields,
+                                const BondFailure &failure,
+                                const GlobalIndex n_global,
+                                MPI_Comm communicator)
+{
+  const std::size_t n = nodes.n_owned;
+  const std::vector<Item> all =
+      gather_items(nodes, fields, failure, n_global, communicator);
+  const double reach = kernel_reach(nodes, fields, communicator);
+  std::vector<std::array<double, 3>> points(n_global);
+  for (GlobalIndex i = 0; i < n_global; ++i)
+    points[i] = {{all[i].position[0], all[i].position[1], all[i].position[2]}};
+  const std::vector<GlobalIndex> owned(nodes.global_id.begin(),
+                                       nodes.global_id.begin() + n);
+  const BondList::Rows candidates =
+      BondList::rows_within(points, {{1., 1., 1.}}, reach, true, owned);
+  const bool cubic = options.has_tensor_kernel(),
+             keeps_bonds = options.neighbor_policy ==
+                           SpgOptions::NeighborPolicy::search_undamaged;
+  BondList::Rows rows(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    if (keeps_bonds)
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+        rows[i].push_back(nodes.global_id[bonds.neighbor[b]]);
+    for (const GlobalIndex j : candidates[i])
+    {
+      const Item &there = all[j];
+      const Vec dX =
+          vec(there.position[0], there.position[1], there.position[2]) -
+          nodes.position[i];
+      if (!is_in_kernel(all[owned[i]], dX, cubic) &&
+          !is_in_kernel(there, dX, cubic))
+        continue;
+      const auto has_failed = [&]
+      {
+        const std::vector<GlobalIndex> &pairs = failure.failed_pairs[i];
+        return std::find(pairs.begin(), pairs.end(), j) != pairs.end();
+      };
+      if (keeps_bonds ? failure.n_failed[i] == 0 && !there.is_damaged
+                      : !has_failed())
+        rows[i].push_back(j);
+    }
+    std::sort(rows[i].begin(), rows[i].end());
+    rows[i].erase(std::unique(rows[i].begin(), rows[i].end()), rows[i].end());
+  }
+  return rows;
+}
+} // namespace sabot

@@ -1,0 +1,33 @@
+// Arrays of an SPG body's particles: start, room for ghosts, checkpoint.
+#include "sabot/bodies/spg/particle_fields.h"
+
+namespace sabot
+{
+void ParticleFields::allocate(const std::vector<double> &volume,
+                              const bool stiffens)
+{
+  const std::size_t n = volume.size();
+  reference_volume = kernel_reference_volume = volume;
+  incremental_deformation_gradient.assign(n, Mat::identity());
+  kernel_reference_deformation_gradient.assign(n, Mat::identity());
+  if (stiffens)
+    stiffening.assign(n, 1.);
+  own_force.assign(n, Vec{});
+}
+
+void ParticleFields::resize(const std::size_t n_local)
+{
+  generalized_stress.resize(n_local, Mat::zero());
+  kernel.resize(n_local);
+}
+
+void ParticleFields::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_array("kernel position", kernel_reference_position);
+  visitor.visit_array("kernel", kernel);
+  visitor.visit_array("kernel volume", kernel_reference_volume);
+  visitor.visit_array("gradient", incremental_deformation_gradient);
+  visitor.visit_array("total gradient", kernel_reference_deformation_gradient);
+  visitor.visit_array("stiffening", stiffening);
+}
+} // namespace sabot

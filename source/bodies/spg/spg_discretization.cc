@@ -1,0 +1,123 @@
+// Particles as a choice of scenes: entries, checks, construction.
+#include "sabot/bodies/discretization.h"
+#include "sabot/bodies/spg/spg_body.h"
+#include "sabot/geometry/face_names.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace sabot
+{
+namespace
+{
+/** Bits as in ParticleCloud::on_face of the faces that an entry lists. */
+std::uint32_t face_bits(const BodyRequest &request, const std::string &entry,
+                        const std::vector<std::string> &faces)
+{
+  const std::string path = request.path + "/" + entry;
+  std::uint32_t bits = 0;
+  for (const unsigned int face : face_ids(path, request.prm.get(entry), faces))
+  {
+    if (face >= ParticleCloud::n_faces)
+      throw InputError(path, "names the boundary id " + std::to_string(face) +
+                                 "; faces of particles need ids below " +
+                                 std::to_string(ParticleCloud::n_faces));
+    bits |= 1u << face;
+  }
+  return bits;
+}
+
+class Particles : public Discretization
+{
+public:
+  void declare(Parameters &prm, const Shape *const shape) const override
+  {
+    const std::string faces = face_names(shape);
+    prm.declare_entry("Symmetry faces", "", name_list(),
+                      "Plane faces on which the model is cut: no velocity "
+                      "across them, no contact with them. Among " +
+                          faces + ".");
+    prm.declare_entry("Nodal spacing", "1 mm",
+                      quantities(Dimension::length, 1, 3, 1e-9, 1e2),
+                      "Distance of neighbouring particles; of a box the "
+                      "nearest value that divides each edge, one for all or "
+                      "three, one per axis. In other shapes particles are the "
+                      "nodes of hexahedra with cells of this size.");
+    prm.declare_entry("Carve from", "", any_text(),
+                      "A FEM body whose cells inside this box or cylinder give "
+                      "way to the particles. A box in a box has a lattice of "
+                      "its own, around which the body is meshed; else the "
+                      "nodes of the cells become the particles. Add a tie to "
+                      "join the two.");
+    prm.declare_entry("Clamped faces", "", name_list(),
+                      "Faces held fixed, among " + faces +
+                          "; in a zone with the cells of another body among "
+                          "that body's, as for symmetry faces.");
+    SpgOptions::declare_parameters(prm);
+  }
+
+  std::unique_ptr<Body> build(BodyRequest &request) const override
+  {
+    std::vector<double> spacing = get_quantities(request.prm, "Nodal spacing");
+    const bool has_lattice = !request.cells && request.shape.has_lattice();
+    if (spacing.size() == 2 || (spacing.size() == 3 && !has_lattice))
+      throw InputError(request.path + "/Nodal spacing",
+                       "has " + std::to_string(spacing.size()) +
+                           " values; give one, or three for a box with a "
+                           "lattice of its own");
+    std::vector<std::string> faces(box_faces.begin(), box_faces.end());
+    ParticleCloud cloud;
+    if (has_lattice)
+    {
+      spacing.resize(3, spacing[0]);
+      cloud = request.shape.lattice(request.prm,
+                                    {{spacing[0], spacing[1], spacing[2]}});
+    }
+    else
+    {
+      const NamedMesh mesh =
+          request.cells ? std::move(*request.cells) : request.mesh(spacing[0]);
+      faces = mesh.faces;
+      cloud = make_mesh_cloud(mesh.mesh);
+      if (!request.cells && !request.shape.follows_cell_size())
+        follow_spacing(request.prm, request.file, request.path,
+                       cloud.spacing[0]);
+    }
+    SpgOptions options = SpgOptions::parse(request.prm, request.path);
+    options.initial_velocity = get_vector(request.prm, "Initial velocity");
+    options.symmetry_faces = face_bits(request, "Symmetry faces", faces);
+    options.clamped_faces = face_bits(request, "Clamped faces", faces);
+    return std::make_unique<SpgBody>(request.name, request.id, std::move(cloud),
+                                     std::move(request.material), options);
+  }
+
+  std::string carved_from(const Parameters &prm) const override
+  {
+    return prm.get("Carve from");
+  }
+
+  void follow_spacing(Parameters &prm, const ParameterFile &file,
+                      const std::string &path,
+                      const double spacing) const override
+  {
+    // Rough, as the cells of a file have no one size.
+    constexpr double tolerance = 0.1;
+    const std::string entry = path + "/Nodal spacing";
+    char value[40];
+    std::snprintf(value, sizeof(value), "%.10g mm", 1e3 * spacing);
+    if (file.is_set(entry) &&
+        std::abs(get_quantities(prm, "Nodal spacing")[0] / spacing - 1.) >
+            tolerance)
+      throw InputError(entry, "is " + prm.get("Nodal spacing") +
+                                  ", but the particles are the nodes of cells "
+                                  "of " +
+                                  value + "; set that or remove the entry");
+    prm.set("Nodal spacing", value); // for the expanded parameters
+  }
+};
+
+const Registry<Discretization>::Add
+    registered({"SPG", "smoothed-particle-Galerkin particles.", nullptr,
+                []() { return std::make_unique<Particles>(); }});
+} // namespace
+} // namespace sabot

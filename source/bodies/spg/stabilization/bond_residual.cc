@@ -1,0 +1,297 @@
+// Stabilization by the residual of each bond, with history (doc/theory-spg.md):
+// what a bond's vector differs from F X, as a spring that yields with the
+// metal.
+#include "sabot/base/registry.h"
+#include "sabot/bodies/spg/linearized_body.h"
+#include "sabot/bodies/spg/spg_step.h"
+#include "sabot/bodies/spg/stabilization/stabilization.h"
+
+namespace sabot
+{
+namespace
+{
+/**
+ * Per bond the residual e = dx - F dX, by increments with the history of theta;
+ * per particle the energy 1/2 k sum w |theta e|^2 with
+ *
+ *   k = alpha mu V / S,  S = sum phi |xi|^2,
+ *
+ * w the scaled weight. As a stress of the modulus mu whose energy is W, their
+ * mean square 3 mu (2 W/V) yields together with the deviator, and theta is what
+ * the return leaves of it.
+ */
+class BondResidual : public Stabilization
+{
+public:
+  explicit BondResidual(const double coefficient) : coefficient(coefficient) {}
+
+  void allocate(const SpgParts &body) override
+  {
+    Stabilization::allocate(body);
+    stiffness.resize(done.size());
+    factor.assign(done.size(), 1.);
+  }
+  void carry_bonds(const BondList &bonds) override { bonds.carry(residual); }
+  void renew_ghosts(const SpgParts &body) override
+  {
+    previous_position = body.nodes.position;
+  }
+  void compute_forces(SpgParts &body, const double dt) override;
+  void begin_kernel_update(const SpgParts &body) override;
+  void follow_functions(const SpgParts &body) override;
+  void end_kernel_update(const SpgParts &body,
+                         const std::vector<char> &was_lost) override;
+  double held_energy(const SpgParts &body, const std::size_t i) const override;
+  void add_row_sums(const SpgParts &body,
+                    std::vector<double> &sums) const override;
+  void apply_linearized(const SpgParts &body, const AlignedVector<Vec> &motion,
+                        AlignedVector<Vec> &force) override;
+  void visit_bonds(StateVisitor &visitor, const SpgParts &body) override;
+  void visit_state(StateVisitor &visitor) override;
+
+  // Of the step, see spg_step.h
+  static constexpr bool has_bond_forces = true;
+  void trial(const ParticleRange &range, SpgParts &body);
+  double add_stress(const std::size_t i, const std::size_t k, const double V,
+                    const StepWork &work, Mat &spatial);
+  void exchange(const SpgParts &body);
+  struct BondForce
+  {
+    const double *weight;      // w [1/m^2]
+    const StoredVec *residual; // e [m]
+    Vec operator()(const std::size_t b, const std::size_t reverse,
+                   const double own, const double there) const
+    {
+      return weight[b] *
+             (own * load(residual[b]) - there * load(residual[reverse]));
+    }
+  };
+  BondForce bond_forces(const BondList &bonds) const
+  {
+    return {bonds.scaled_weight.data(), residual.data()};
+  }
+  void add_forces(const SpgParts &) {}
+  double linear_stiffness(const std::size_t i) const { return stiffness[i]; }
+  void add_linearized(const SpgParts &, const AlignedVector<Vec> &,
+                      const AlignedVector<Vec> &)
+  {
+  }
+
+private:
+  const double coefficient;             // alpha
+  AlignedVector<StoredVec> residual;    // e [m], over n_with_ghosts()
+  AlignedVector<Vec> previous_position; // of the last evaluation, with ghosts
+  std::vector<double> stiffness;        // k_N [N m]
+  std::vector<double> factor;           // theta, due on residuals
+  /** Sums over bonds of one batch. */
+  struct Batch
+  {
+    // k w times the squares: trial, old with trial, old [J]
+    double trial_square[spg_batch_size], old_trial[spg_batch_size],
+        old_square[spg_batch_size];
+    Mat residual_on_bond[spg_batch_size];     // sum w e (x) dx
+    Mat residual_on_residual[spg_batch_size]; // sum w e (x) e
+  };
+  Batch batch;
+};
+
+void BondResidual::trial(const ParticleRange &range, SpgParts &body)
+{
+  // By increments, which needs no dX:
+  //   e = dx - F_new F_old^-1 (dx_old - theta_old e_old).
+  StepWork &work = body.work;
+  const BondList &bonds = body.bonds;
+  const Vec *const x = body.nodes.position.data();
+  const Vec *const x_old = previous_position.data();
+  const double *const volume = body.fields.kernel_reference_volume.data();
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const double *const weight = bonds.scaled_weight.data();
+  StoredVec *const stored_residual = residual.data();
+  const double modulus = 3. * body.points.law().shear_modulus();
+  for (std::size_t i = range.begin; i < range.end; ++i)
+  {
+    const std::size_t k = i - range.begin;
+    const Mat columns = transpose(work.relative_gradient[k]);
+    const Vec xi = x[i], xi_old = x_old[i];
+    const double theta = factor[i];
+    Vec trial_square = {}, old_trial = {}, old_square = {};
+    Mat on_bond = Mat::zero(), on_residual = Mat::zero();
+    const std::size_t last = bonds.end(i);
+    for (std::size_t b = bonds.begin(i); b < last; ++b)
+    {
+      const std::uint32_t j = neighbor[b];
+      const Vec dx = x[j] - xi, dx_old = x_old[j] - xi_old;
+      const Vec e_old = theta * load(stored_residual[b]);
+      const StoredVec stored = store(dx - dx_old + e_old -
+                                     multiply_columns(columns, dx_old - e_old));
+      stored_residual[b] = stored;
+      // As stored: forces along e itself keep the angular momentum exact.
+      const Vec e = load(stored);
+      const Vec we = weight[b] * e;
+      trial_square += we * e;
+      old_trial += we * e_old;
+      old_square += weight[b] * e_old * e_old;
+      add_outer(on_bond, we, dx);
+      add_outer(on_residual, we, e);
+    }
+    const auto sum = [](const Vec v) { return v[0] + v[1] + v[2]; };
+    const double k_N = stiffness[i];
+    batch.trial_square[k] = k_N * sum(trial_square);
+    batch.old_trial[k] = k_N * sum(old_trial);
+    batch.old_square[k] = k_N * sum(old_square);
+    batch.residual_on_bond[k] = on_bond;
+    batch.residual_on_residual[k] = on_residual;
+    work.extra_square[k] = modulus * batch.trial_square[k] / volume[i];
+  }
+}
+
+inline double BondResidual::add_stress(const std::size_t i, const std::size_t k,
+                                       const double, const StepWork &work,
+                                       Mat &spatial)
+{
+  // sum t (x) F dX with F dX = dx - e, t = k w theta e_trial: the residuals'
+  // part of the stress.
+  const double theta = work.return_factor[k];
+  const double theta_k = theta * stiffness[i];
+  spatial = spatial - theta_k * (batch.residual_on_bond[k] -
+                                 theta * batch.residual_on_residual[k]);
+  // Work of the mean of old and new bond forces along the change of e.
+  done[i] += 0.5 * ((1. - theta) * batch.old_trial[k] - batch.old_square[k] +
+                    theta * batch.trial_square[k]);
+  factor[i] = theta;
+  return theta_k;
+}
+
+void BondResidual::exchange(const SpgParts &body)
+{
+  body.bonds.update_ghosts(residual.data());
+  std::copy(body.nodes.position.begin(), body.nodes.position.end(),
+            previous_position.begin());
+}
+
+void BondResidual::begin_kernel_update(const SpgParts &body)
+{
+  const BondList &bonds = body.bonds;
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+  {
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      residual[b] = store(factor[i] * load(residual[b]));
+    factor[i] = 1.;
+  }
+}
+
+void BondResidual::follow_functions(const SpgParts &body)
+{
+  const Approximation &functions = body.approximation;
+  const double mu = body.points.law().shear_modulus();
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+  {
+    const double S =
+        std::max(functions.spread[i], 0.5 * functions.intact_spread[i]);
+    stiffness[i] =
+        functions.lost_direction[i] || S == 0.
+            ? 0.
+            : coefficient * mu * body.fields.kernel_reference_volume[i] / S;
+  }
+}
+
+void BondResidual::end_kernel_update(const SpgParts &body,
+                                     const std::vector<char> &was_lost)
+{
+  const BondList &bonds = body.bonds;
+  const Approximation &functions = body.approximation;
+  const Vec *const X = body.fields.kernel_reference_position.data();
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+  {
+    // The linear part of the residual belongs to F, which starts anew.
+    Mat A = Mat::zero();
+    const Vec Xi = X[i];
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      add_outer(A, bonds.weight[b] * load(residual[b]),
+                X[bonds.neighbor[b]] - Xi);
+    A = transpose(A * functions.moment_inverse[i]);
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      residual[b] = store(load(residual[b]) -
+                          multiply_columns(A, X[bonds.neighbor[b]] - Xi));
+    // Residuals that grew while they had no stiffness hold no energy.
+    if (was_lost[i] && !functions.lost_direction[i])
+      std::fill(residual.begin() + bonds.begin(i),
+                residual.begin() + bonds.end(i), store(Vec{}));
+  }
+}
+
+double BondResidual::held_energy(const SpgParts &body,
+                                 const std::size_t i) const
+{
+  const BondList &bonds = body.bonds;
+  double square = 0.;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    square += bonds.scaled_weight[b] * norm_square(load(residual[b]));
+  const double theta = factor[i];
+  return 0.5 * stiffness[i] * theta * theta * square;
+}
+
+void BondResidual::add_row_sums(const SpgParts &body,
+                                std::vector<double> &sums) const
+{
+  // Of the springs, as if F did not follow the particles.
+  const BondList &bonds = body.bonds;
+  std::vector<double> k(stiffness);
+  k.resize(body.nodes.size());
+  body.exchange.update(k.data());
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+  {
+    double row = 0.;
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      row += 2. * bonds.scaled_weight[b] * (k[i] + k[bonds.neighbor[b]]);
+    sums[i] += row;
+  }
+}
+
+void BondResidual::visit_bonds(StateVisitor &visitor, const SpgParts &body)
+{
+  residual.resize(body.bonds.n_with_ghosts());
+  visitor.visit("bond residual", residual.data(), body.bonds.capacity(),
+                sizeof(residual[0]));
+  if (visitor.is_restoring())
+    body.bonds.update_ghosts(residual.data());
+}
+
+void BondResidual::visit_state(StateVisitor &visitor)
+{
+  Stabilization::visit_state(visitor);
+  visitor.visit_array("previous position", previous_position);
+  visitor.visit_array("bond stiffness", stiffness);
+  visitor.visit_array("residual factor", factor);
+}
+
+void BondResidual::compute_forces(SpgParts &body, const double dt)
+{
+  run_spg_step(body, *this, dt);
+}
+
+void BondResidual::apply_linearized(const SpgParts &body,
+                                    const AlignedVector<Vec> &motion,
+                                    AlignedVector<Vec> &force)
+{
+  apply_linearized_body(body, *this, motion, force);
+}
+
+const Registry<Stabilization>::Add registered(
+    {"bond residual",
+     "springs with history against what the linear functions do not see; they "
+     "yield with the metal.",
+     [](Parameters &prm)
+     {
+       prm.declare_entry("Stabilisation coefficient", "4",
+                         quantity(Dimension::none, 0., 20.),
+                         "Stiffness of the bond residual in shear moduli; 3 to "
+                         "5 give the same answers.");
+     },
+     [](const Parameters &prm, const std::string &)
+     {
+       const double alpha = get_quantity(prm, "Stabilisation coefficient");
+       return [alpha] { return std::make_unique<BondResidual>(alpha); };
+     }});
+} // namespace
+} // namespace sabot

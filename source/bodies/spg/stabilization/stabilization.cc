@@ -1,0 +1,18 @@
+// What forms of stabilization have in common.
+#include "sabot/bodies/spg/stabilization/stabilization.h"
+
+#include "sabot/base/nodal_state.h"
+#include "sabot/bodies/spg/spg_parts.h"
+
+namespace sabot
+{
+void Stabilization::allocate(const SpgParts &body)
+{
+  done.assign(body.nodes.n_owned, 0.);
+}
+
+void Stabilization::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_array("stabilization work", done);
+}
+} // namespace sabot

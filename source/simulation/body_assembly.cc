@@ -1,0 +1,187 @@
+// Bodies of a scene from their shapes, zones and discretizations.
+#include "sabot/simulation/body_assembly.h"
+
+#include "sabot/geometry/mesh_import.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+BodyAssembly::BodyAssembly(Parameters &prm, const ParameterFile &file,
+                           const Materials &materials)
+    : prm(prm), file(file), materials(materials)
+{
+}
+
+std::unique_ptr<Discretization>
+BodyAssembly::discretization_of(const std::string &body) const
+{
+  const std::string path = "Bodies/" + body + "/Discretization";
+  return Registry<Discretization>::get(path, file.value(path, "FEM")).make();
+}
+
+std::unique_ptr<Shape> BodyAssembly::shape_of(const std::string &body) const
+{
+  const std::string path = "Bodies/" + body + "/Geometry";
+  return make_shape(path, file.value(path, "box"));
+}
+
+void BodyAssembly::build(const std::vector<std::string> &names)
+{
+  find_carvings(names);
+  carve_meshes();
+  for (const std::string &name : names)
+    bodies.push_back(make_body(name, bodies.size()));
+  for (const Carving &carving : carvings)
+    zones.push_back(record(carving));
+}
+
+void BodyAssembly::find_carvings(const std::vector<std::string> &names)
+{
+  for (const std::string &name : names)
+  {
+    const Entered entered(prm, "Bodies", name);
+    const std::string from = discretization_of(name)->carved_from(prm),
+                      path = "Bodies/" + name + "/Carve from";
+    if (from.empty())
+      continue;
+    if (std::find(names.begin(), names.end(), from) == names.end() ||
+        from == name)
+      throw_unknown_name(path, "body", from, names);
+    for (const Carving &other : carvings)
+      if (other.body == from)
+        throw InputError(path, "body \"" + from + "\" already has the zone \"" +
+                                   other.zone + "\"; one zone per body");
+    if (!discretization_of(from)->may_be_carved())
+      throw InputError(path, "body \"" + from +
+                                 "\" is not of finite elements; a zone can "
+                                 "only be carved from a FEM body");
+    carvings.push_back(read_carving(name, from));
+  }
+}
+
+Carving BodyAssembly::read_carving(const std::string &name,
+                                   const std::string &from) const
+{
+  const std::string path = "Bodies/" + name;
+  const auto shape = shape_of(name);
+  const std::optional<ZoneShape> zone = shape->zone(prm, path);
+  if (!zone)
+    throw InputError(path + "/Geometry",
+                     "is " + prm.get("Geometry") +
+                         "; a zone that is carved from a body is a box or a "
+                         "cylinder");
+  Carving carving;
+  carving.body = from;
+  carving.zone = name;
+  carving.shape = *zone;
+  carving.follows_mesh =
+      !shape->has_lattice() || !shape_of(from)->has_lattice();
+  return carving;
+}
+
+void BodyAssembly::carve_meshes()
+{
+  for (const Carving &c : carvings)
+  {
+    if (!c.follows_mesh)
+      continue;
+    double size = 0.;
+    {
+      const Entered entered(prm, "Bodies", c.body);
+      size = discretization_of(c.body)->cell_size(prm);
+      const NamedMesh whole = make_mesh("Bodies/" + c.body, size, &c);
+      CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
+                               "Bodies/" + c.zone + "/Centre");
+      cells[c.body] = {std::move(parts.rest), whole.faces};
+      cells[c.zone] = {std::move(parts.zone), whole.faces};
+      if (!shape_of(c.body)->follows_cell_size())
+        size = make_mesh_cloud(cells[c.zone].mesh).spacing[0];
+    }
+    const Entered entered(prm, "Bodies", c.zone);
+    discretization_of(c.zone)->follow_spacing(prm, file, "Bodies/" + c.zone,
+                                              size);
+    cell_size[c.zone] = size;
+  }
+}
+
+NamedMesh BodyAssembly::make_mesh(const std::string &path, const double size,
+                                  const Carving *carving)
+{
+  const std::string name = path.substr(path.find('/') + 1);
+  ShapeRequest request{prm, file, path};
+  request.cell_size = size;
+  request.is_graded = discretization_of(name)->may_be_carved();
+  request.carving = carving;
+  NamedMesh made = shape_of(name)->mesh(request);
+  const MeshQuality quality = measure_quality(made.mesh);
+  notes.push_back("mesh of " + name + ": " + quality.text());
+  if (quality.scaled_jacobian <= 0.)
+    throw InputError(path + "/Geometry",
+                     "the mesh has a cell that is inside out or flat: " +
+                         quality.text());
+  return made;
+}
+
+std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
+                                              const int id)
+{
+  const std::string path = "Bodies/" + name;
+  const Entered entered(prm, "Bodies", name);
+  const auto material = materials.find(prm.get("Material"));
+  if (material == materials.end())
+  {
+    std::vector<std::string> known;
+    for (const auto &entry : materials)
+      known.push_back(entry.first);
+    throw_unknown_name(path + "/Material", "material", prm.get("Material"),
+                       known);
+  }
+  const auto carving =
+      std::find_if(carvings.begin(), carvings.end(),
+                   [&](const Carving &c) { return c.body == name; });
+  const auto shape = shape_of(name);
+  const auto mesh = [&](const double size)
+  {
+    return make_mesh(path, size,
+                     carving == carvings.end() ? nullptr : &*carving);
+  };
+  BodyRequest request{prm,    file, path,        name, id, material->second,
+                      *shape, mesh, std::nullopt};
+  const auto made = cells.find(name);
+  if (made != cells.end())
+    request.cells = std::move(made->second);
+  return discretization_of(name)->build(request);
+}
+
+CarvedZone BodyAssembly::record(const Carving &carving) const
+{
+  const auto number = [&](const std::string &name)
+  {
+    int b = 0;
+    while (bodies[b]->name != name)
+      ++b;
+    return b;
+  };
+  CarvedZone zone;
+  zone.zone = number(carving.zone);
+  zone.host = number(carving.body);
+  zone.shape = carving.shape;
+  constexpr double far = std::numeric_limits<double>::max();
+  zone.host_low.fill(far);
+  zone.host_high.fill(-far);
+  for (const int b : {zone.zone, zone.host})
+    for (const auto &x : bodies[b]->partition_points())
+      for (int d = 0; d < 3; ++d)
+      {
+        zone.host_low[d] = std::min(zone.host_low[d], x[d]);
+        zone.host_high[d] = std::max(zone.host_high[d], x[d]);
+      }
+  const auto size = cell_size.find(carving.zone);
+  if (size != cell_size.end())
+    zone.spacing.fill(size->second);
+  else
+    zone.spacing = bodies[zone.zone]->particles()->lattice_spacing();
+  return zone;
+}
+} // namespace sabot

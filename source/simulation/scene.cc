@@ -1,0 +1,159 @@
+// A scene from its file: loops over what its lists name.
+#include "sabot/simulation/scene.h"
+
+#include "sabot/geometry/partition.h"
+#include "sabot/simulation/body_assembly.h"
+
+#include <sstream>
+
+namespace sabot
+{
+Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
+    : communicator(communicator)
+{
+  declare(prm, &file);
+  file.parse_into(prm);
+  read_settings();
+  build_materials(file);
+  BodyAssembly assembly(prm, file, materials);
+  assembly.build(names_of("bodies"));
+  bodies = std::move(assembly.bodies);
+  zones = std::move(assembly.zones);
+  notes = std::move(assembly.notes);
+  for (const auto &body : bodies)
+    is_free = is_free && !body->is_held();
+  check_overlaps(*this, file);
+  build_couplings(file);
+  build_outputs();
+  build_quantities();
+}
+
+std::vector<std::string> Scene::names_of(const std::string &list) const
+{
+  return split_names(prm.get("List of " + list));
+}
+
+void Scene::read_settings()
+{
+  settings.title = prm.get("Title");
+  settings.end_time = get_quantity(prm, "End time");
+  settings.step_factor = get_quantity(prm, "Step factor");
+  settings.largest_step = get_quantity(prm, "Largest step");
+  settings.energy_limit = get_quantity(prm, "Energy residual limit");
+  settings.checkpoint_interval = get_quantity(prm, "Checkpoint interval");
+  settings.checkpoint_steps = prm.get_integer("Checkpoint interval in steps");
+  settings.checkpoint_wall_time =
+      get_quantity(prm, "Checkpoint interval of wall time");
+  if (names_of("bodies").empty())
+    throw InputError("List of bodies",
+                     "the scene has no bodies; list their names");
+}
+
+void Scene::build_materials(const ParameterFile &file)
+{
+  for (const std::string &name : file.subsections("Materials"))
+  {
+    const Entered entered(prm, "Materials", name);
+    auto material = Material::make(prm, "Materials/" + name);
+    material->name = name;
+    warnings.insert(warnings.end(), material->warnings.begin(),
+                    material->warnings.end());
+    materials[name] = std::move(material);
+  }
+}
+
+void Scene::build_outputs()
+{
+  for (const std::string &name : names_of("outputs"))
+  {
+    const Entered entered(prm, "Outputs", name);
+    outputs.push_back(Output::make(prm, "Outputs/" + name));
+  }
+}
+
+void Scene::build_quantities()
+{
+  for (const std::string &name : names_of("quantities"))
+  {
+    const Entered entered(prm, "Quantities", name);
+    const std::string path = "Quantities/" + name;
+    const auto body = [&](const std::string &entry) -> const Body &
+    { return *bodies[body_index(path + "/" + entry, prm.get(entry))]; };
+    quantities.push_back(
+        Registry<QuantityOfInterest>::get(path + "/Type", prm.get("Type"))
+            .make({prm, path, name, body}));
+    quantities.back()->name = name;
+  }
+}
+
+int Scene::body_index(const std::string &path,
+                      const std::string &body_name) const
+{
+  std::vector<std::string> names;
+  for (const auto &body : bodies)
+  {
+    if (body->name == body_name)
+      return body->id;
+    names.push_back(body->name);
+  }
+  throw_unknown_name(path, "body", body_name, names);
+}
+
+std::vector<Body *> Scene::body_pointers() const
+{
+  std::vector<Body *> pointers;
+  for (const auto &body : bodies)
+    pointers.push_back(body.get());
+  return pointers;
+}
+
+std::string Scene::expanded_parameters() const
+{
+  std::ostringstream text;
+  print_expanded(prm, text);
+  return text.str();
+}
+
+std::vector<std::pair<std::string, std::string>> Scene::knobs() const
+{
+  // Subsections that no list names are read, but not in force.
+  std::vector<std::pair<std::string, std::string>> in_force;
+  for (const auto &knob : prm.knobs())
+  {
+    const std::size_t slash = knob.first.find('/');
+    bool is_listed = slash == std::string::npos;
+    for (const std::string list : {"bodies", "couplings", "outputs"})
+      for (const std::string &name : names_of(list))
+        is_listed = is_listed || knob.first.compare(slash + 1, name.size() + 1,
+                                                    name + "/") == 0;
+    if (is_listed)
+      in_force.push_back(knob);
+  }
+  return in_force;
+}
+
+void Scene::distribute()
+{
+  std::vector<std::array<double, 3>> points;
+  std::vector<float> weights;
+  for (const auto &body : bodies)
+  {
+    const auto &p = body->partition_points();
+    points.insert(points.end(), p.begin(), p.end());
+    weights.insert(weights.end(), p.size(), body->partition_weight());
+  }
+  const std::vector<int> owner = partition(points, weights, communicator);
+  std::size_t first = 0;
+  for (const auto &body : bodies)
+  {
+    const std::size_t n = body->partition_points().size();
+    body->node_owner.assign(owner.begin() + first, owner.begin() + first + n);
+    first += n;
+    body->distribute(body->node_owner, communicator);
+  }
+  // Ties first: contact wants to know who follows whom.
+  for (auto coupling = couplings.rbegin(); coupling != couplings.rend();
+       ++coupling)
+    (*coupling)->initialize();
+}
+} // namespace sabot
