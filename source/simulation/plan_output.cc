@@ -202,8 +202,7 @@ void append_row(const Scene &scene, History &history)
   }
   Measures row;
   for (const auto &quantity : scene.quantities)
-    row.push_back(
-        {quantity.name, "1", scene.bodies[quantity.body]->measure().mass});
+    row.push_back({quantity->name, quantity->unit(), quantity->value()});
   if (!row.empty())
     history.append("quantities", row);
 }

@@ -30,7 +30,8 @@ void judge_heat(const Scene &scene, PhysicsPlan &plan)
 {
   double spacing = never;
   for (const PlannedBody &body : plan.bodies)
-    spacing = std::min(spacing, body.facts.spacing);
+    for (const double h : body.facts.spacing)
+      spacing = std::min(spacing, h);
   const double fourier =
       largest_diffusivity * scene.settings.end_time / (spacing * spacing);
   plan.numbers.push_back(
