@@ -13,7 +13,8 @@ namespace sabot
 /** Cells that grow away from their fine part without an upper bound. */
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/** A box of hexahedra, uniform, or graded away from a zone that is left out. */
+/** A box of hexahedra, uniform, or graded away from a zone: the part that has
+    cells of the cell size, which may be left out for particles. */
 struct BoxSpecification
 {
   std::array<double, 3> centre{{0., 0., 0.}}, size{{0., 0., 0.}}; // [m]
@@ -27,6 +28,8 @@ struct BoxSpecification
 };
 
 /**
+ * The box, in cells whose planes are common to all rows: uniform where there is
+ * no zone, else uniform over the zone and growing away from it along each axis.
  * Boundary ids: 0 to 5 for -x, +x, -y, +y, -z, +z, and 6 for the faces of the
  * zone. Throws InputError when the zone is not inside the box.
  */

@@ -19,8 +19,14 @@
 namespace sabot
 {
 /**
- * Nodes, boundary, erosion and reports of a body of hexahedra; what its cells
- * do is up to Hexahedra.
+ * A body of hexahedra on this rank: its nodes, the life of a step and reports.
+ * What its cells do is up to Hexahedra, what can be touched to FemBoundary,
+ * which cells go to FemErosion, temperatures between cells to HeatConduction.
+ *
+ * A step: accelerations by M a = f_external - f_internal with lumped masses (an
+ * eighth of the mass of every cell around), where the internal forces are
+ * -sum_cells V_0 J sigma F^-T B_a at the positions now (doc/theory).
+ * Nodes: owned ones first, then ghosts, both ascending in global order.
  */
 class FemBody : public Body, public FaceView
 {
@@ -36,6 +42,7 @@ public:
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
+  // Between the kicks and drifts of the integrator, see Body.
   void impose_velocities(const double time) override;
   void accumulate_work(const double half_dt) override;
   void update_ghosts() override;
@@ -43,6 +50,8 @@ public:
   StableStep stable_step() const override;
   bool update_topology(const unsigned int step, const double time) override;
 
+  /** Owned cells only, so that the sum over ranks counts each once; the kinetic
+      energy of nodes that lost all cells counts as eroded. */
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
@@ -90,6 +99,7 @@ public:
 private:
   /** Whether the material has this state variable. */
   bool has_state(const std::string &variable) const;
+  /** Conducts since the last time that it was called; collective. */
   void conduct_heat(const double time);
   /** The nodes of this rank at rest in place, and their exchange. */
   void lay_out_nodes(const LocalPart &part, const std::vector<int> &owner);
@@ -106,7 +116,7 @@ private:
   GlobalIndex n_global_cells = 0;
   GhostExchange node_exchange;
   std::unique_ptr<Hexahedra> cells; // of this rank's nodes, ascending
-  std::vector<char> owned_cell;
+  std::vector<char> owned_cell;     // whether this rank reports it, [cells]
   VelocityConstraints constraints;
   FemBoundary boundary;
   mutable std::vector<std::uint32_t> known_cell_of_faces;

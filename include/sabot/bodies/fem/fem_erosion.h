@@ -59,8 +59,13 @@ public:
 private:
   /** Active cells that meet a criterion, ascending. */
   std::vector<std::size_t> find_condemned() const;
+  /** Which cells share a face, by its sorted corners; once, before any dies. */
   void find_neighbors();
+  /** Books and removes them. */
   void remove(const std::vector<std::size_t> &condemned);
+  /** Faces that go and come with these initial cells; counts the cells that
+      nodes still have. New faces have ids that no other rank or time gives to
+      another face. */
   void update_boundary(const std::vector<std::uint32_t> &dead);
   /** Drop the active cells whose initial cell is dead from all arrays. */
   void compact();

@@ -30,15 +30,17 @@ struct FemOptions
 {
   std::string integration = "one point"; // of Registry<Hexahedra>
   std::string hourglass = "viscous";     // of Registry<OnePoint>
+  /** Which rotation the stress follows: by the spin of the velocity gradient,
+     or by R of F = R U, without oscillation in large elastic shear. */
   enum class ObjectiveRate
   {
     jaumann,
     green_naghdi
   };
   ObjectiveRate objective_rate = ObjectiveRate::jaumann;
-  double hourglass_coefficient = 0.1;
-  double bulk_viscosity_linear = 0.06;
-  double bulk_viscosity_quadratic = 1.5;
+  double hourglass_coefficient = 0.1;    // of Flanagan & Belytschko's forms
+  double bulk_viscosity_linear = 0.06;   // c1, see bulk_viscosity_pressure()
+  double bulk_viscosity_quadratic = 1.5; // c2
   /** A cell is eroded when one of these is passed; nothing: never. */
   std::optional<double> erosion_plastic_strain, erosion_damage;
   double erosion_step = 0.; // [s], the cell's own stable step falls below
@@ -58,6 +60,7 @@ struct FemOptions
   /** Of the nodes of driven faces; only the held components count. */
   std::array<double, 3> driven_velocity{{0., 0., 0.}}; // [m/s]
   std::array<bool, 3> driven_components{{true, true, true}};
+  /** Conduct heat between the cells, after every interval. */
   bool conducts_heat = false;
   double conduction_interval = 1e-6; // [s]
 
@@ -66,6 +69,8 @@ struct FemOptions
   /** The state variables that end the life of a cell. */
   std::vector<ErosionLimit> erosion_limits() const;
 
+  /** The entries of the body's subsection, and their values. Neither knows of
+      boundary ids and velocities, which are the body's. */
   static void declare_parameters(Parameters &prm);
   static FemOptions parse(const Parameters &prm);
 };
