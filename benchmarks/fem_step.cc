@@ -28,7 +28,7 @@ void step(benchmark::State &state, const FemOptions &options, const double rate,
   NodalState &nodes = body.nodes();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes.velocity[i] = vec(-rate * nodes.reference_position[i][0], 0., 0.);
-  world.integrator.initialize();
+  world.stepper.initialize();
   constexpr double dt = 5e-8;
   // To and fro, so that any number of repetitions may be asked for.
   int count = 0;

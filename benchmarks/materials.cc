@@ -2,6 +2,7 @@
 // build/release/benchmark_materials
 #include "sabot/kernels/stress_update.h"
 #include "sabot/materials/laws.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "verification/metals.h"
 
 #include <benchmark/benchmark.h>

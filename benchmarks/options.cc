@@ -1,5 +1,6 @@
 // What each option costs: CPU time of the force loop of a plastic block per
 // item with the option on and off; build/release/benchmark_options
+#include "sabot/base/choice.h"
 #include "verification/world.h"
 
 #include <deal.II/base/mpi.h>
@@ -30,7 +31,7 @@ void run(benchmark::State &state, World &world, const bool updates)
     n.velocity[i] = vec(-rate * X[0] + 0.3 * rate * X[1], 0.2 * rate * X[1],
                         0.1 * rate * X[2]);
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   unsigned int step = 0;
   for (auto _ : state)
   {
@@ -145,7 +146,7 @@ void add_cells(const Law &law)
 void add_particles(const Law &law)
 {
   SpgOptions o;
-  o.stabilization = SpgOptions::Stabilization::none;
+  o.stabilization = choose<Stabilization>("none");
   particles("no stabilization", o, law);
   o = SpgOptions();
   o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
@@ -155,9 +156,9 @@ void add_particles(const Law &law)
   o.kernel_shape = SpgOptions::KernelShape::tensor;
   o.normalized_support = 1.5;
   particles("convex 1.5, bond residual", o, law);
-  o.stabilization = SpgOptions::Stabilization::none;
+  o.stabilization = choose<Stabilization>("none");
   particles("convex 1.5, no stabilization", o, law);
-  o.stabilization = SpgOptions::Stabilization::second_gradient;
+  o.stabilization = choose<Stabilization>("second gradient");
   particles("convex 1.5, second gradient", o, law);
 
   o = SpgOptions();
@@ -167,10 +168,10 @@ void add_particles(const Law &law)
             with_updates);
   particles("with updates: kernel update every 30 steps", SpgOptions(), law,
             with_updates);
-  o.critical_effective_plastic_strain = 100.;
+  o.set_critical_plastic_strain(100.);
   particles("with updates: failure, none due", o, law, with_updates);
   o = SpgOptions();
-  o.stabilization = SpgOptions::Stabilization::velocity_smoothing;
+  o.stabilization = choose<Stabilization>("velocity smoothing");
   particles("with updates: velocity smoothing", o, law, with_updates);
 }
 } // namespace

@@ -27,10 +27,10 @@ void step(benchmark::State &state, const SpgOptions &options,
     const Vec X = body.nodes().reference_position[i];
     body.nodes().velocity[i] = speed / (n * h) * vec(-X[2], X[0], X[1]);
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   for (int i = 0; i < 20; ++i)
     world.advance(0.5);
-  const double dt = 0.5 * world.integrator.propose(false).dt;
+  const double dt = 0.5 * world.stepper.propose(false).dt;
   for (auto _ : state)
   {
     for (std::size_t i = 0; i < body.nodes().n_owned; ++i)

@@ -1,14 +1,30 @@
 #!/usr/bin/env bash
-# Configure and build: scripts/build.sh [release|debug|asan-ubsan]
+# Configure and build:
+#   scripts/build.sh [release|debug|asan-ubsan] [-DOPTION=VALUE...]
+# all programs and tests;
+#   scripts/build.sh release sabot
+# the program alone, which needs fewer packages.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=${1:-release}
+shift || true
+options=() targets=()
+for word in "$@"; do
+  case $word in
+  -D*) options+=("$word") ;;
+  *) targets+=("$word") ;;
+  esac
+done
 # ccache without a second run of the preprocessor
 export CCACHE_DEPEND=${CCACHE_DEPEND:-1}
-options=()
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
+if [ "${targets[*]}" != sabot ]; then
+  options+=(-DSABOT_PROGRAM_ONLY=OFF)
+elif [ ! -f "build/$preset/CMakeCache.txt" ]; then
+  options+=(-DSABOT_PROGRAM_ONLY=ON)
+fi
 cmake --preset "$preset" "${options[@]}" >"/dev/null"
-cmake --build --preset "$preset"
+cmake --build --preset "$preset" ${targets[@]+--target "${targets[@]}"}

@@ -1,10 +1,22 @@
 #!/usr/bin/env bash
-# Install the Debian packages that Sabot is built from, if any is missing.
+# Install the Debian packages that are missing: scripts/packages.sh [run|test]
+# run: what `sabot` is built from; test (standard): also what charts, tests,
+# benchmarks and checks of the code need.
 set -euo pipefail
 
-packages=(g++ cmake ninja-build git libdeal.ii-dev libvtk9-dev libeigen3-dev
-  libcli11-dev libssl-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev openmpi-bin
-  hdf5-tools ccache python3 xvfb xauth)
+packages=(g++ cmake ninja-build libdeal.ii-dev libvtk9-dev libeigen3-dev
+  libcli11-dev libssl-dev nlohmann-json3-dev openmpi-bin python3)
+case ${1:-test} in
+run) ;;
+test)
+  packages+=(ccache clang-format git hdf5-tools libbenchmark-dev libgtest-dev
+    universal-ctags xauth xvfb)
+  ;;
+*)
+  echo "usage: scripts/packages.sh [run|test]" >&2
+  exit 1
+  ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

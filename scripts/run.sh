@@ -9,8 +9,8 @@ if [ $# -gt 0 ] && [[ $1 != -* ]]; then
   scene=$(realpath "$1")
   shift
 fi
-"$root/scripts/packages.sh"
-"$root/scripts/build.sh" release
+"$root/scripts/packages.sh" run
+"$root/scripts/build.sh" release sabot
 
 folder=$root/results/$(basename "${scene%.prm}")
 code=0

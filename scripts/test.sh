@@ -3,8 +3,8 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-"$root/scripts/packages.sh"
-"$root/scripts/build.sh" release
+"$root/scripts/packages.sh" test
+"$root/scripts/build.sh" release -DSABOT_WERROR=ON
 # OpenMPI refuses root, as which containers run, unless told twice.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 ctest --test-dir "$root/build/release" --output-on-failure

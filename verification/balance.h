@@ -5,30 +5,18 @@
 
 namespace sabot
 {
-/** Energy of a world with all parts of the ledger, less the work done on it
-    from outside; on one rank. */
-inline double balance(const World &world)
-{
-  EnergyLedger e;
-  for (const auto &body : world.bodies)
-    body->add_energies(e);
-  for (const auto &coupling : world.couplings)
-    coupling->add_energies(e);
-  return e.total().value();
-}
-
 /** Follows the largest deviation of the balance from its first value, over the
     largest balance so far, as a run does. */
 class EnergyWatch
 {
 public:
   explicit EnergyWatch(const World &world)
-      : world(world), first(balance(world)), largest(std::abs(first))
+      : world(world), first(world.total_energy()), largest(std::abs(first))
   {
   }
   void look()
   {
-    const double now = balance(world);
+    const double now = world.total_energy();
     largest = std::max(largest, std::abs(now));
     // Written so that not-a-number stays.
     const double off = std::abs(now - first) / largest;

@@ -56,7 +56,7 @@ double shared_part(const SpgBody &body, const SpgBody &other)
   const NodalState &mine = body.nodes(), &its = other.nodes();
   std::vector<VolumePoint> volume;
   for (std::size_t j = 0; j < its.n_owned; ++j)
-    volume.push_back(other.volume_point(j));
+    volume.push_back(other.particles()->volume_point(j));
   double sum = 0.;
   for (std::size_t i = 0; i < mine.n_owned; ++i)
     for (std::size_t j = 0; j < its.n_owned; ++j)
@@ -93,21 +93,21 @@ Encounter meet(const bool both, const bool with_contact)
   crumble(upper, 1);
   if (both)
     crumble(lower, 2);
-  world.integrator.initialize();
+  world.stepper.initialize();
   double energy = 0.;
   const auto before = world.momenta();
   Encounter result;
-  while (world.integrator.time < 40e-6)
+  while (world.stepper.time() < 40e-6)
   {
     world.advance(0.5);
     // They crumble by themselves first and touch after 2.3 us.
-    if (world.integrator.time < 2e-6)
+    if (world.stepper.time() < 2e-6)
       continue;
     if (energy == 0.)
-      energy = balance(world);
-    result.given = std::max(result.given, -world.energies()[2] / energy);
-    result.gain = std::max(result.gain, balance(world) / energy - 1.);
-    if (world.step % 20 == 0)
+      energy = world.total_energy();
+    result.given = std::max(result.given, -world.contact_energy() / energy);
+    result.gain = std::max(result.gain, world.total_energy() / energy - 1.);
+    if (world.stepper.steps() % 20 == 0)
       result.shared = std::max(result.shared, shared_part(upper, lower));
     for (const Measure &m : world.couplings[0]->measure())
       if (m.name == "nodes deep inside")
@@ -117,9 +117,9 @@ Encounter meet(const bool both, const bool with_contact)
   for (int d = 0; d < 3; ++d)
     result.momentum =
         std::max(result.momentum, std::abs((after[d] - before[d]) / before[2]));
-  result.broken = measure(upper, "bonds broken fraction");
+  result.broken = upper.measure().bonds_broken_fraction;
   result.parting =
-      (measure(upper, "velocity z") - measure(lower, "velocity z")) / speed;
+      (upper.measure().velocity[2] - lower.measure().velocity[2]) / speed;
   return result;
 }
 

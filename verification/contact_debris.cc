@@ -47,30 +47,31 @@ Collision collide(const double stiffness_scale)
       body.set_state("effective plastic strain", i, 1.);
     n.velocity[i] = vec(x > 0. ? 60. : -60., 0., 0.);
   }
-  world.integrator.initialize();
-  while (body.connected_pieces().size() < 2 && world.integrator.time < 20e-6)
+  world.stepper.initialize();
+  while (body.fragments()->connected_pieces().size() < 2 && world.stepper.time() < 20e-6)
     world.advance(0.5);
   Collision result;
-  result.n_pieces = body.connected_pieces().size();
+  result.n_pieces = body.fragments()->connected_pieces().size();
   // The break is over when nothing fails any more.
-  const double broken = world.integrator.time;
-  while (world.integrator.time < 2. * broken)
+  const double broken = world.stepper.time();
+  while (world.stepper.time() < 2. * broken)
     world.advance(0.5);
   // Let them meet.
   for (std::size_t i = 0; i < n.n_owned; ++i)
     n.velocity[i] =
         vec(n.reference_position[i][0] > 0. ? -approach : approach, 0., 0.);
   const auto before = world.momenta();
-  const double energy = world.total_energy(), mass = measure(body, "mass"),
-               kinetic = world.energies()[0], taken = world.energies()[2];
+  const double energy = world.total_energy(), mass = body.measure().mass,
+               kinetic = world.ledger().kinetic.value(),
+               taken = world.contact_energy();
   double highest = energy;
-  const double end = world.integrator.time + 100e-6;
-  while (world.integrator.time < end)
+  const double end = world.stepper.time() + 100e-6;
+  while (world.stepper.time() < end)
   {
     world.advance(0.25);
     highest = std::max(highest, world.total_energy());
     result.given =
-        std::max(result.given, (taken - world.energies()[2]) / kinetic);
+        std::max(result.given, (taken - world.contact_energy()) / kinetic);
     double left = -1e9, right = 1e9;
     for (std::size_t i = 0; i < n.n_owned; ++i)
       if (n.reference_position[i][0] < 0.)
@@ -89,7 +90,7 @@ Collision collide(const double stiffness_scale)
   result.right_velocity /= right_mass;
   result.momentum = (world.momenta()[0] - before[0]) / (mass * approach);
   result.gain = (highest - energy) / energy;
-  result.kinetic = world.energies()[0] / kinetic;
+  result.kinetic = world.ledger().kinetic.value() / kinetic;
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
 #include "sabot/materials/laws.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "verification/balance.h"
 #include "verification/problem.h"
 
@@ -71,29 +72,29 @@ Outcome strike(const double speed, const double end)
   Outcome outcome{};
   try
   {
-    world.integrator.initialize();
+    world.stepper.initialize();
     EnergyWatch watch(world);
-    while (world.integrator.time < end && world.step < 20000)
+    while (world.stepper.time() < end && world.stepper.steps() < 20000)
     {
       // Cells that a step moves by a part of their size want shorter ones.
       world.advance(speed > 2000. ? 0.5 : 0.9);
-      if (world.step % 5 == 0)
+      if (world.stepper.steps() % 5 == 0)
         watch.look();
     }
     watch.look();
     outcome.residual = watch.residual();
     if (!is_finite(world))
       outcome.problem = "not a number";
-    else if (world.integrator.time < end)
+    else if (world.stepper.time() < end)
       outcome.problem = "the step collapsed";
   }
   catch (const PhysicsError &e)
   {
     outcome.problem = e.what();
   }
-  outcome.steps = world.step;
-  outcome.speed = -measure(*world.bodies[2], "velocity z");
-  outcome.broken = measure(*world.bodies[1], "bonds broken fraction");
+  outcome.steps = world.stepper.steps();
+  outcome.speed = -world.bodies[2]->measure().velocity[2];
+  outcome.broken = world.bodies[1]->measure().bonds_broken_fraction;
   return outcome;
 }
 

@@ -44,7 +44,7 @@ std::vector<Check> spinning_plate()
     const double omega = 50.;
     for (std::size_t i = 0; i < n.size(); ++i)
       n.velocity[i] = cross(vec(0., 0., omega), n.reference_position[i]);
-    world.integrator.initialize();
+    world.stepper.initialize();
     EnergyWatch watch(world);
     const auto before = world.momenta();
     double early = 0., late = 0., turned = 0.;
@@ -58,15 +58,15 @@ std::vector<Check> spinning_plate()
       return sum / body.n_local_cells();
     };
     const double end = 10. * 2. * M_PI / omega;
-    while (world.integrator.time < end)
+    while (world.stepper.time() < end)
     {
       world.advance(0.7);
-      turned = omega * world.integrator.time / (2. * M_PI);
+      turned = omega * world.stepper.time() / (2. * M_PI);
       if (turned < 5.)
         early += mean_stress(), ++n_early;
       else
         late += mean_stress(), ++n_late;
-      if (world.step % 10 == 0)
+      if (world.stepper.steps() % 10 == 0)
         watch.look();
     }
     const auto after = world.momenta();
@@ -112,7 +112,7 @@ Column twist_column(std::unique_ptr<Body> made, const bool hold_by_inertia)
       n.inertia[i] = 1e9 * n.lumped_mass[i];
     }
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   EnergyWatch watch(world);
   std::size_t tip = 0;
   for (std::size_t i = 0; i < n.n_owned; ++i)
@@ -123,10 +123,10 @@ Column twist_column(std::unique_ptr<Body> made, const bool hold_by_inertia)
   }
   Column column{0., 0., 0., 1.};
   double angle = 0., last = 0.;
-  while (world.integrator.time < 0.12)
+  while (world.stepper.time() < 0.12)
   {
     world.advance(0.7);
-    if (world.step % 10 == 0)
+    if (world.stepper.steps() % 10 == 0)
       watch.look();
     const double now = std::atan2(n.position[tip][1], n.position[tip][0]);
     angle += std::remainder(now - last, 2. * M_PI);
@@ -134,7 +134,7 @@ Column twist_column(std::unique_ptr<Body> made, const bool hold_by_inertia)
     if (angle > column.twist)
     {
       column.twist = angle;
-      column.time = world.integrator.time;
+      column.time = world.stepper.time();
     }
   }
   column.residual = watch.residual();

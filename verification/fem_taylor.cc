@@ -45,16 +45,14 @@ Bar taylor(const double h, const bool by_contact, const double step_factor)
   world.distribute();
   // The energy at the start, before the plane holds the struck face.
   Bar bar{};
-  EnergyLedger e;
-  world.bodies[0]->add_energies(e);
-  bar.kinetic = 4. * e.kinetic.value();
-  world.integrator.initialize();
+  bar.kinetic = 4. * world.ledger().kinetic.value();
+  world.stepper.initialize();
   EnergyWatch watch(world);
   const Body &body = *world.bodies[0];
-  const auto extent = [&](const char axis)
+  const auto extent = [&](const int d)
   {
-    return measure(body, std::string("maximum ") + axis) -
-           measure(body, std::string("minimum ") + axis);
+    const BodyMeasures m = body.measure();
+    return m.high[d] - m.low[d];
   };
   // At the foot: the largest radius of the struck face.
   const auto face_radius = [&]
@@ -66,18 +64,18 @@ Bar taylor(const double h, const bool by_contact, const double step_factor)
         r = std::max(r, std::hypot(n.position[i][0], n.position[i][1]));
     return r;
   };
-  while (world.integrator.time < 80e-6)
+  while (world.stepper.time() < 80e-6)
   {
     world.advance(step_factor);
-    if (bar.early_radius == 0. && world.integrator.time >= 12e-6)
+    if (bar.early_radius == 0. && world.stepper.time() >= 12e-6)
       bar.early_radius = face_radius();
-    if (world.step % 20 == 0)
+    if (world.stepper.steps() % 20 == 0)
       watch.look();
   }
   watch.look();
   bar.residual = watch.residual();
-  bar.length = extent('z');
-  bar.radius = 0.5 * (extent('x') + extent('y'));
+  bar.length = extent(2);
+  bar.radius = 0.5 * (extent(0) + extent(1));
   bar.plastic_strain = measure(body, "plastic strain max");
   return bar;
 }

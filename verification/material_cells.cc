@@ -29,18 +29,18 @@ public:
                     0.99 * n.velocity[i][2]);
         }));
     world.distribute();
-    world.integrator.initialize();
+    world.stepper.initialize();
   }
   void run_to(const double end)
   {
-    while (world.integrator.time < end)
+    while (world.stepper.time() < end)
       world.advance(0.5);
   }
-  double time() const { return world.integrator.time; }
+  double time() const { return world.stepper.time(); }
   double strain() const
   {
-    return std::log(
-        (measure(cell(), "maximum x") - measure(cell(), "minimum x")) / 10e-6);
+    return std::log((cell().measure().high[0] - cell().measure().low[0]) /
+                    10e-6);
   }
   double stress(const int c) const { return cell().stress(c, 0); }
   double state(const std::string &name) const

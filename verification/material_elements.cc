@@ -23,10 +23,10 @@ double sheared_stress(const FemOptions::ObjectiveRate rate, const double gamma,
           n.velocity[i] = vec(speed * n.reference_position[i][1] / h, 0., 0.);
       }));
   world.distribute();
-  world.integrator.initialize();
+  world.stepper.initialize();
   const int steps = 4000;
   for (int i = 0; i < steps; ++i)
-    world.integrator.advance(gamma * h / speed / steps);
+    world.stepper.advance(gamma * h / speed / steps);
   const auto &cell = static_cast<const FemBody &>(*world.bodies[0]);
   normal = cell.stress(0, 0) / c.shear_modulus();
   return cell.stress(3, 0) / c.shear_modulus();
@@ -91,12 +91,12 @@ std::vector<Check> uniaxial_johnson_cook()
                     0.999 * n.velocity[i][2]);
         }));
     world.distribute();
-    world.integrator.initialize();
+    world.stepper.initialize();
     double end = 0.2;
-    while (world.integrator.time < end / rate)
+    while (world.stepper.time() < end / rate)
       world.advance(0.5);
     const auto &cell = static_cast<const FemBody &>(*world.bodies[0]);
-    const double strain = rate * world.integrator.time;
+    const double strain = rate * world.stepper.time();
     // Reference: sigma = E (strain - eps), explicit in eps with the flow rule
     // inverted by bisection in each of many small steps.
     double sigma = 0., eps = 0., T = room;

@@ -3,6 +3,7 @@
 
 #include "sabot/base/parameter_file.h"
 #include "sabot/materials/laws.h"
+#include "sabot/materials/mie_gruneisen.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -10,6 +10,7 @@
 namespace sabot
 {
 struct JohnsonCookParameters;
+struct MieGruneisenParameters;
 
 /**
  * The law of prm/materials/@p name.prm, read as a scene reads it, so that a

@@ -1,5 +1,6 @@
 #include "sabot/couplings/contact.h"
 #include "sabot/materials/laws.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "verification/driven.h"
 #include "verification/problem.h"
 
@@ -25,7 +26,7 @@ void add_slabs(World &world, const std::shared_ptr<const Material> &material,
       std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, ContactOptions(),
       MPI_COMM_WORLD));
   world.distribute();
-  world.integrator.initialize();
+  world.stepper.initialize();
 }
 
 /** Stress along x, averaged over cells whose reference centre lies between
@@ -66,11 +67,11 @@ std::vector<Check> hugoniot()
   Crossing near{-0.5 * u}, far{-0.5 * u};
   near.old_value = far.old_value = -u;
   const FemBody &target = static_cast<const FemBody &>(*world.bodies[1]);
-  while (world.integrator.time < 0.8 * n * h / shock_speed)
+  while (world.stepper.time() < 0.8 * n * h / shock_speed)
   {
     world.advance(0.9);
-    near.sample(world.integrator.time, velocity_at(target, 3e-3, 0.5 * h));
-    far.sample(world.integrator.time, velocity_at(target, 7e-3, 0.5 * h));
+    near.sample(world.stepper.time(), velocity_at(target, 3e-3, 0.5 * h));
+    far.sample(world.stepper.time(), velocity_at(target, 7e-3, 0.5 * h));
   }
   const double got = -axial_stress(target, 0., h, 2e-3, 5e-3);
   // Shock speed relative to the material ahead of it.
@@ -80,7 +81,7 @@ std::vector<Check> hugoniot()
 
   // Release: the free face of the target moves at -u + the integral of
   // dp/(rho c) along the isentrope from the shocked state, times two senses.
-  while (world.integrator.time < 1.25 * n * h / shock_speed)
+  while (world.stepper.time() < 1.25 * n * h / shock_speed)
     world.advance(0.9);
   const double face = velocity_at(target, n * h, 0.5 * h);
   const double J1 = 1. - u / shock_speed;
@@ -132,14 +133,14 @@ std::vector<Check> precursor()
   Crossing near{-u + 0.5 * jump}, far{-u + 0.5 * jump};
   near.old_value = far.old_value = -u;
   const FemBody &target = static_cast<const FemBody &>(*world.bodies[1]);
-  while (world.integrator.time < 8e-3 / c_long)
+  while (world.stepper.time() < 8e-3 / c_long)
   {
     world.advance(0.9);
-    near.sample(world.integrator.time, velocity_at(target, 2e-3, 0.5 * h));
-    far.sample(world.integrator.time, velocity_at(target, 6e-3, 0.5 * h));
+    near.sample(world.stepper.time(), velocity_at(target, 2e-3, 0.5 * h));
+    far.sample(world.stepper.time(), velocity_at(target, 6e-3, 0.5 * h));
   }
   // Between the fronts stands the elastic limit; behind, u.
-  const double t = world.integrator.time;
+  const double t = world.stepper.time();
   const double plateau =
       -axial_stress(target, 0., h, c_bulk * t + 0.3 * (c_long - c_bulk) * t,
                     c_long * t - 0.3 * (c_long - c_bulk) * t);

@@ -37,12 +37,12 @@ std::array<double, 2> shear(const double h)
         upper.push_back(i);
     }
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   double impulse = 0., time = 0.;
-  while (2. * v * world.integrator.time < 0.8e-3)
+  while (2. * v * world.stepper.time() < 0.8e-3)
   {
     const double dt = world.advance(0.8);
-    if (2. * v * world.integrator.time < 0.3e-3)
+    if (2. * v * world.stepper.time() < 0.3e-3)
       continue;
     for (const std::size_t i : upper)
       impulse -= n.force[i][0] * dt;
@@ -51,7 +51,7 @@ std::array<double, 2> shear(const double h)
   const double stress = impulse / time / (Lx * Ly);
   return {{stress, measure(body, "stabilisation energy") /
                        (measure(body, "stabilisation energy") +
-                        measure(body, "internal energy"))}};
+                        body.measure().internal_energy)}};
 }
 
 std::vector<Check> spg_limit_load()

@@ -195,8 +195,8 @@ std::vector<Check> spg_modes()
     add_checks(checks, {"convex 1.5, bond residual", convex("bond residual")},
                0.33, 7, perturbation, false);
     add_checks(checks,
-               {"convex 1.5, second gradient", convex("second gradient")},
-               0.33, 7, perturbation, false);
+               {"convex 1.5, second gradient", convex("second gradient")}, 0.33,
+               7, perturbation, false);
     add_checks(checks, {"convex 1.5, none", convex("none")}, 0.33, 7,
                perturbation, false);
   }

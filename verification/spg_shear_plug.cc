@@ -12,6 +12,8 @@ struct Shearing
 {
   double work; // of the driven ends per sheared area [J/m^2]
   double broken;
+  double residual; // of the energy balance, over the work
+  double held;     // shear stress that is left at the end, over the yield's
 };
 
 /** A block between two ends that move along x at +-v until its middle has
@@ -45,16 +47,35 @@ Shearing shear(const double h, const double failure_strain)
       driven.push_back(i);
     }
   }
-  world.integrator.initialize();
-  double work = 0.;
+  world.stepper.initialize();
+  // Motion of what is not driven, and all but motion of everything.
+  const auto energy = [&]
+  {
+    double kinetic = 0.;
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+      if (speed[i] == 0.)
+        kinetic += 0.5 * n.inertia[i] * dot(n.velocity[i], n.velocity[i]);
+    return kinetic + world.internal_energy() + world.contact_energy();
+  };
+  const double before = energy();
+  double work = 0., force = 0., old_force = 0., held = 0.;
+  int n_last = 0;
   const double distance = 7e-3; // of the ends, relative: failed by then
-  while (2. * v * world.integrator.time < distance)
+  const auto moved = [&] { return 2. * v * world.stepper.time(); };
+  while (moved() < distance)
   {
     const double dt = world.advance(0.8);
+    old_force = force;
+    force = 0.;
     for (const std::size_t i : driven)
-      work -= n.force[i][0] * speed[i] * dt;
+      force -= n.force[i][0] * speed[i] / v;
+    work += 0.5 * (old_force + force) * v * dt;
+    if (moved() > 0.9 * distance)
+      held += 0.5 * force, ++n_last;
   }
-  return {work / (Lx * Ly), measure(body, "bonds broken fraction")};
+  const double strength = aluminum_yield_stress() / std::sqrt(3.) * Lx * Ly;
+  return {work / (Lx * Ly), body.measure().bonds_broken_fraction,
+          std::abs(energy() - before - work) / work, held / n_last / strength};
 }
 
 std::vector<Check> spg_shear_plug()
@@ -72,6 +93,15 @@ std::vector<Check> spg_shear_plug()
                     failure_strain, 1e3 * h);
       checks.push_back(
           {name, 0., s.work * 1e-3, 0., "kJ/m2", "", Check::Kind::reported});
+      std::snprintf(name, sizeof(name), "strain %g, %g mm: energy residual",
+                    failure_strain, 1e3 * h);
+      checks.push_back({name, 0.02, s.residual, 0., "1",
+                        "work of the ends is what the block takes",
+                        Check::Kind::at_most});
+      std::snprintf(name, sizeof(name), "strain %g, %g mm: stress at the end",
+                    failure_strain, 1e3 * h);
+      checks.push_back(
+          {name, 0., s.held, 0.05, "1", "over Y/sqrt(3): it is sheared off"});
       std::snprintf(name, sizeof(name), "strain %g, %g mm: bonds broken",
                     failure_strain, 1e3 * h);
       checks.push_back(

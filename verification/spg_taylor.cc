@@ -54,14 +54,14 @@ Bar strike(const double h, const bool by_contact, const double step_factor)
         "impact", world.pointers(), pairs, ContactOptions(), MPI_COMM_WORLD));
   }
   world.distribute();
-  world.integrator.initialize();
+  world.stepper.initialize();
   const Body &bar = *world.bodies[0];
   const double before = world.total_energy();
   Bar result;
-  while (world.integrator.time < 80e-6)
+  while (world.stepper.time() < 80e-6)
   {
     world.advance(step_factor);
-    if (world.step % 50 == 0)
+    if (world.stepper.steps() % 50 == 0)
       result.energy_residual = std::max(
           result.energy_residual, std::abs(world.total_energy() / before - 1.));
   }

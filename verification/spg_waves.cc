@@ -40,7 +40,7 @@ double frequency(World &world, const Shape &shape, const int n_crossings,
     form[i] = shape(n.reference_position[i]);
     n.velocity[i] = n.inertia[i] < 1e3 * n.lumped_mass[i] ? form[i] : Vec{};
   }
-  world.integrator.initialize();
+  world.stepper.initialize();
   const auto amplitude = [&]
   {
     double sum = 0.;
@@ -177,7 +177,7 @@ std::vector<Check> spg_wave()
                         : n.reference_position[i][0] > 1e-9 ? 0.
                                                             : 1.,
                         0., 0.);
-  world.integrator.initialize();
+  world.stepper.initialize();
   const double station = 20e-3;
   double arrival = 0., plateau = 0., stress = 0.;
   int samples = 0;
@@ -192,14 +192,14 @@ std::vector<Check> spg_wave()
       }
     return sum / weight;
   };
-  while (world.integrator.time < 6e-6)
+  while (world.stepper.time() < 6e-6)
   {
     const double dt = world.advance(0.8);
     const double v =
         mean([&](const std::size_t i) { return n.velocity[i][0]; });
     if (arrival == 0. && v > 0.5)
-      arrival = world.integrator.time - 0.5 * dt;
-    if (world.integrator.time > 5e-6)
+      arrival = world.stepper.time() - 0.5 * dt;
+    if (world.stepper.time() > 5e-6)
     {
       plateau += v;
       stress += mean([&](const std::size_t i) { return body.stress(0, i); });
@@ -229,7 +229,7 @@ std::vector<Check> spg_step_limit()
     auto &body = static_cast<SpgBody &>(*world.bodies[0]);
     shake(body, 1e-3);
     const double dt = factor * 2. / body.largest_frequency(150);
-    world.integrator.initialize();
+    world.stepper.initialize();
     // The quantity that central difference keeps: v(n+1/2) . v(n-1/2) in the
     // kinetic part; the plain sum oscillates. Compared as means of windows.
     double first = 0., last = 0.;
@@ -239,8 +239,8 @@ std::vector<Check> spg_step_limit()
     {
       for (int s = 0; s < n_steps && !blew_up; ++s)
       {
-        world.integrator.advance(dt);
-        world.integrator.update_topology(++world.step);
+        world.stepper.advance(dt);
+        world.stepper.update();
         if (s < window)
           first += world.total_energy() / window;
         if (s >= n_steps - window)

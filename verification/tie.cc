@@ -45,8 +45,7 @@ double energy_of(const Body &body)
 {
   EnergyLedger e;
   body.add_energies(e);
-  return e.kinetic.value() + e.internal.value() + e.stabilization.value() +
-         e.hourglass.value();
+  return e.total().value();
 }
 
 struct Crossing
@@ -87,18 +86,16 @@ Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
   world.couplings.push_back(std::make_unique<Tie>("tie", world.pointers(), 1, 0,
                                                   0.05, MPI_COMM_WORLD));
   world.distribute();
-  world.integrator.initialize();
-  while (world.integrator.time < 2. * period)
+  world.stepper.initialize();
+  while (world.stepper.time() < 2. * period)
     world.advance(0.9);
   const double sent = world.total_energy();
   // The slowest part has crossed, and no reflection has come back twice.
-  while (world.integrator.time <
+  while (world.stepper.time() <
          1.4 * (2. * length + before) / elastic()->sound_speed())
     world.advance(0.9);
-  EnergyLedger ledger;
-  world.couplings[0]->add_energies(ledger);
   return {energy_of(*world.bodies[from_particles]) / sent,
-          1. - world.total_energy() / sent, ledger.tie.value() / sent};
+          1. - world.total_energy() / sent, world.ledger().tie.value() / sent};
 }
 
 void add_checks(std::vector<Check> &checks, const int ratio, const int n_coarse,
@@ -310,7 +307,7 @@ Pipes turn(const HexMesh &leader, const HexMesh &follower)
   double mass = 0.;
   for (auto &body : world.bodies)
   {
-    mass += measure(*body, "mass");
+    mass += body->measure().mass;
     NodalState &n = body->nodes();
     for (std::size_t i = 0; i < n.size(); ++i)
       n.velocity[i] = field(n.reference_position[i]);
@@ -329,13 +326,13 @@ Pipes turn(const HexMesh &leader, const HexMesh &follower)
     result.least_mass =
         std::min(result.least_mass, leads.inertia[i] / leads.lumped_mass[i]);
 
-  world.integrator.initialize();
+  world.stepper.initialize();
   result.step = std::min(1., world.couplings[0]->stable_step().dt /
                                  std::min(world.bodies[0]->stable_step().dt,
                                           world.bodies[1]->stable_step().dt));
   const double energy = world.total_energy();
   const auto before = world.momenta();
-  while (world.integrator.time < 60e-6)
+  while (world.stepper.time() < 60e-6)
   {
     world.advance(1.); // at the limit
     result.energy =
@@ -354,9 +351,7 @@ Pipes turn(const HexMesh &leader, const HexMesh &follower)
     result.angular = std::max(result.angular,
                               std::abs(after[3 + d] - before[3 + d]) / (p * R));
   }
-  EnergyLedger ledger;
-  world.couplings[0]->add_energies(ledger);
-  result.tie_work = ledger.tie.value() / energy;
+  result.tie_work = world.ledger().tie.value() / energy;
   return result;
 }
 

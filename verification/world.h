@@ -5,7 +5,7 @@
 #include "sabot/bodies/spg/spg_body.h"
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/partition.h"
-#include "sabot/integrator/central_difference.h"
+#include "sabot/integrator/stepper.h"
 #include "verification/metals.h"
 
 #include <cmath>
@@ -19,8 +19,7 @@ struct World
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<std::unique_ptr<Coupling>> couplings;
   Timers timers;
-  CentralDifference integrator{bodies, couplings, timers, MPI_COMM_WORLD};
-  unsigned int step = 0;
+  Stepper stepper{bodies, couplings, StepLimits(), timers, MPI_COMM_WORLD};
 
   void distribute()
   {
@@ -41,32 +40,38 @@ struct World
       p.push_back(body.get());
     return p;
   }
+  /** One step of @p factor times the stable one. @return its size [s]. */
   double advance(const double factor)
   {
-    const double dt = factor * integrator.propose(false).dt;
-    integrator.advance(dt);
-    integrator.update_topology(++step);
-    return dt;
+    stepper.advance(factor * stepper.propose(false).dt);
+    stepper.update();
+    return stepper.last_step();
   }
-  /** Kinetic, internal (with stabilisation, hourglass, eroded), contact with
-      friction. */
-  std::array<double, 3> energies() const
+  /** Where the energy is, of all ranks [J]. Collective. */
+  EnergyLedger ledger() const
   {
-    EnergyLedger e;
+    EnergyLedger ledger;
     for (auto &body : bodies)
-      body->add_energies(e);
+      body->add_energies(ledger);
     for (auto &coupling : couplings)
-      coupling->add_energies(e);
-    e.reduce(MPI_COMM_WORLD);
-    return {{e.kinetic.value(),
-             e.internal.value() + e.stabilization.value() +
-                 e.hourglass.value() + e.eroded.value(),
-             e.contact.value() + e.friction.value()}};
+      coupling->add_energies(ledger);
+    ledger.reduce(MPI_COMM_WORLD);
+    return ledger;
   }
-  double total_energy() const
+  /** Of the ledger, less the work done from outside [J]. Collective. */
+  double total_energy() const { return ledger().total().value(); }
+  /** Work of stresses, stabilization and hourglass control [J]. Collective. */
+  double internal_energy() const
   {
-    const auto e = energies();
-    return e[0] + e[1] + e[2];
+    const EnergyLedger e = ledger();
+    return e.internal.value() + e.stabilization.value() + e.hourglass.value() +
+           e.eroded.value();
+  }
+  /** What contact holds and friction has taken [J]. Collective. */
+  double contact_energy() const
+  {
+    const EnergyLedger e = ledger();
+    return e.contact.value() + e.friction.value();
   }
   /** Linear and angular momentum of this rank's nodes (tests on one rank). */
   std::array<double, 6> momenta() const

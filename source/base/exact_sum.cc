@@ -1,3 +1,4 @@
+// Sums that do not depend on the order of their terms.
 #include "sabot/base/exact_sum.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Copies what owned nodes have to the ghosts of other ranks.
 #include "sabot/base/ghost_exchange.h"
 
 #include <algorithm>

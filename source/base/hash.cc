@@ -1,3 +1,4 @@
+// SHA-256 by OpenSSL, and base64.
 #include "sabot/base/hash.h"
 
 #include <openssl/evp.h>

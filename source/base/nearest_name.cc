@@ -1,3 +1,4 @@
+// The name that was probably meant.
 #include "sabot/base/nearest_name.h"
 
 #include "sabot/base/error.h"

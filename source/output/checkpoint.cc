@@ -1,3 +1,4 @@
+// Checkpoints as HDF5 files with checksums.
 #include "sabot/output/checkpoint.h"
 
 #include "sabot/base/error.h"
@@ -210,51 +211,83 @@ void flush_to_disk(const std::string &file)
   if (!good)
     throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
 }
+
+/** What a rank other than 0 does of write(): its part of the index, then its
+    arrays. */
+void send_blocks(const std::string &lines,
+                 const std::vector<StateBlock> &blocks, MPI_Comm communicator)
+{
+  unsigned long length = lines.size();
+  MPI_Send(&length, 1, MPI_UNSIGNED_LONG, 0, 0, communicator);
+  send(std::vector<char>(lines.begin(), lines.end()), communicator);
+  for (const StateBlock &block : blocks)
+    send(block.bytes, communicator);
+}
+
+/** Write the arrays of rank @p r as they arrive, and add its lines to
+    @p index. @return whether HDF5 had no trouble; the rank is heard to the
+    end even then. */
+bool receive_blocks(const int r, const hid_t h5, std::string &index,
+                    MPI_Comm communicator)
+{
+  unsigned long length = 0;
+  MPI_Recv(&length, 1, MPI_UNSIGNED_LONG, r, 0, communicator,
+           MPI_STATUS_IGNORE);
+  std::vector<char> text(length);
+  receive(text, r, communicator);
+  index.append(text.begin(), text.end());
+  std::istringstream stream(std::string(text.begin(), text.end()));
+  std::size_t b = 0;
+  bool good = true;
+  for (std::string line; std::getline(stream, line); ++b)
+  {
+    std::istringstream parts(line);
+    std::size_t of_rank, n, size;
+    parts >> of_rank >> n >> size;
+    std::vector<char> bytes(n * size);
+    receive(bytes, r, communicator);
+    good =
+        good && write_bytes(h5, dataset_name(r, b), bytes.data(), bytes.size());
+  }
+  return good;
+}
+
+/** What rank 0 does of write(): its own arrays, those of the other ranks as
+    they arrive, then header and index. IOError names the file @p name that
+    @p temporary will be. */
+void write_file(const std::string &temporary, const std::string &name,
+                const CheckpointHeader &header, const std::string &lines,
+                const std::vector<StateBlock> &blocks, MPI_Comm communicator)
+{
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  const Hdf5Quiet quiet;
+  Hdf5Writer h5(temporary, name);
+  bool good = true;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    good = good && write_bytes(h5, dataset_name(0, b), blocks[b].bytes.data(),
+                               blocks[b].bytes.size());
+  std::string index = lines;
+  // All ranks are heard to the end, even when the disk is full.
+  for (int r = 1; r < n_ranks; ++r)
+    good = receive_blocks(r, h5, index, communicator) && good;
+  std::ostringstream head;
+  head << CheckpointFolder::format << " " << header.version << " " << n_ranks
+       << " " << header.step << " " << std::hexfloat << header.time << "\n";
+  const std::string hash = sha256(head.str() + index + header.parameters);
+  for (const auto &[what, text] :
+       {std::pair<std::string, std::string>{"header", head.str()},
+        {"parameters", header.parameters},
+        {"index", index},
+        {"sha256", hash}})
+    good = good && write_bytes(h5, what, text.data(), text.size());
+  h5.close();
+  if (!good)
+    throw IOError("cannot write \"" + name + "\": HDF5 could not lay it out");
+  append_trailer(temporary);
+  flush_to_disk(temporary);
+}
 } // namespace
-
-void StateSaver::visit(const std::string &name, void *data, std::size_t n,
-                       std::size_t size)
-{
-  const char *const begin = static_cast<const char *>(data);
-  blocks.push_back({section + "/" + name, n, size,
-                    std::vector<char>(begin, begin + n * size)});
-}
-
-StateRestorer::StateRestorer(std::vector<StateBlock> blocks)
-    : blocks(std::move(blocks))
-{
-}
-
-const StateBlock &StateRestorer::next(const std::string &name) const
-{
-  const std::string wanted = section + "/" + name;
-  if (position >= blocks.size() || blocks[position].name != wanted)
-    throw IOError("the checkpoint does not fit this program: \"" + wanted +
-                  "\" was expected, found " +
-                  (position < blocks.size()
-                       ? "\"" + blocks[position].name + "\""
-                       : "nothing"));
-  return blocks[position];
-}
-
-void StateRestorer::visit(const std::string &name, void *data, std::size_t n,
-                          std::size_t size)
-{
-  const StateBlock &block = next(name);
-  if (block.n != n || block.size != size)
-    throw IOError("the checkpoint does not fit this scene: \"" + block.name +
-                  "\" has " + std::to_string(block.n) + " entries of " +
-                  std::to_string(block.size) + " bytes, expected " +
-                  std::to_string(n) + " of " + std::to_string(size));
-  if (n > 0)
-    std::memcpy(data, block.bytes.data(), n * size);
-  ++position;
-}
-
-std::size_t StateRestorer::n_entries(const std::string &name, std::size_t) const
-{
-  return next(name).n;
-}
 
 CheckpointFolder::CheckpointFolder(const std::string &folder,
                                    MPI_Comm communicator)
@@ -298,82 +331,22 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
     add_line(lines,
              {rank, block.n, block.size,
               sha256(block.bytes.data(), block.bytes.size()), block.name});
-  std::string my_lines = lines.str();
-  if (rank != 0)
-  {
-    unsigned long length = my_lines.size();
-    MPI_Send(&length, 1, MPI_UNSIGNED_LONG, 0, 0, communicator);
-    send(std::vector<char>(my_lines.begin(), my_lines.end()), communicator);
-    for (const StateBlock &block : blocks)
-      send(block.bytes, communicator);
-  }
   std::string problem;
   std::size_t n_bytes = 0;
-  if (rank == 0)
-  {
-    std::ostringstream number;
-    number << prefix << std::setw(10) << std::setfill('0') << header.step;
-    const std::string file =
-        folder + "/" + (name.empty() ? number.str() : name) + ending;
-    std::string index;
-    const auto write_all = [&](const std::string &temporary)
-    {
-      const Hdf5Quiet quiet;
-      Hdf5Writer h5(temporary, file);
-      bool good = true;
-      // All ranks are heard to the end, even when the disk is full.
-      for (int r = 0; r < n_ranks; ++r)
-      {
-        std::vector<char> text(my_lines.begin(), my_lines.end());
-        if (r > 0)
-        {
-          unsigned long length = 0;
-          MPI_Recv(&length, 1, MPI_UNSIGNED_LONG, r, 0, communicator,
-                   MPI_STATUS_IGNORE);
-          text.resize(length);
-          receive(text, r, communicator);
-        }
-        index.append(text.begin(), text.end());
-        std::istringstream stream(std::string(text.begin(), text.end()));
-        std::size_t b = 0;
-        for (std::string line; std::getline(stream, line); ++b)
-        {
-          if (r == 0)
-          {
-            good = good &&
-                   write_bytes(h5, dataset_name(r, b), blocks[b].bytes.data(),
-                               blocks[b].bytes.size());
-            continue;
-          }
-          std::istringstream parts(line);
-          std::size_t of_rank, n, size;
-          parts >> of_rank >> n >> size;
-          std::vector<char> bytes(n * size);
-          receive(bytes, r, communicator);
-          good = good && write_bytes(h5, dataset_name(r, b), bytes.data(),
-                                     bytes.size());
-        }
-      }
-      std::ostringstream head;
-      head << format << " " << header.version << " " << n_ranks << " "
-           << header.step << " " << std::hexfloat << header.time << "\n";
-      const std::string hash = sha256(head.str() + index + header.parameters);
-      for (const auto &[what, text] :
-           {std::pair<std::string, std::string>{"header", head.str()},
-            {"parameters", header.parameters},
-            {"index", index},
-            {"sha256", hash}})
-        good = good && write_bytes(h5, what, text.data(), text.size());
-      h5.close();
-      if (!good)
-        throw IOError("cannot write \"" + file +
-                      "\": HDF5 could not lay it out");
-      append_trailer(temporary);
-      flush_to_disk(temporary);
-    };
+  if (rank != 0)
+    send_blocks(lines.str(), blocks, communicator);
+  else
     try
     {
-      write_atomically(file, write_all);
+      std::ostringstream number;
+      number << prefix << std::setw(10) << std::setfill('0') << header.step;
+      const std::string file =
+          folder + "/" + (name.empty() ? number.str() : name) + ending;
+      write_atomically(file,
+                       [&](const std::string &temporary) {
+                         write_file(temporary, file, header, lines.str(),
+                                    blocks, communicator);
+                       });
       std::error_code ignored;
       n_bytes = fs::file_size(file, ignored);
       const std::vector<std::string> files = list(folder);
@@ -384,7 +357,6 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
     {
       problem = e.what();
     }
-  }
   int bad = !problem.empty();
   MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
   if (bad)

@@ -1,3 +1,4 @@
+// Folders, and files that are whole at any moment.
 #include "sabot/output/file_tools.h"
 
 #include "sabot/base/error.h"

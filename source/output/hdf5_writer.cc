@@ -1,3 +1,4 @@
+// An HDF5 file whose bytes go through a driver of our own.
 #include "sabot/output/hdf5_writer.h"
 
 #include "sabot/base/error.h"

@@ -1,3 +1,4 @@
+// Tables over time, as compound datasets of HDF5.
 #include "sabot/output/history.h"
 
 #include "sabot/base/error.h"

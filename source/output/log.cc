@@ -1,3 +1,4 @@
+// What a run says, on the screen and in log.txt.
 #include "sabot/output/log.h"
 
 #include "sabot/base/error.h"

@@ -1,3 +1,4 @@
+// Fields of bodies as VTU files, by VTK.
 #include "sabot/output/vtu_writer.h"
 
 #include "sabot/base/error.h"

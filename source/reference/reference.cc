@@ -82,7 +82,7 @@ std::string exit_codes_page()
 {
   std::ostringstream text;
   text << generated << "# Exit codes\n\n| code | meaning |\n|---|---|\n";
-  for (const ExitCodeMeaning &code : exit_code_meanings)
+  for (const ExitCodeMeaning &code : exit_code_meanings())
     text << "| " << static_cast<int>(code.code) << " | " << code.meaning
          << " |\n";
   return text.str();

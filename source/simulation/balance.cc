@@ -23,8 +23,10 @@ double Balance::total_energy()
     coupling->add_energies(e);
   e.reduce(communicator);
   ledger.clear();
-  e.for_each([&](const EnergyTerm &term, const double value)
-             { ledger.push_back({term.name, "J", value}); });
+  e.for_each(
+      [&](const EnergyTerm &term, const double value) {
+        ledger.push_back({term.name, "J", value});
+      });
   const double total = e.total().value();
   ledger.push_back({"total", "J", total});
   return total;

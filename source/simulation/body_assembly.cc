@@ -105,8 +105,8 @@ void BodyAssembly::carve_meshes()
   }
 }
 
-NamedMesh BodyAssembly::make_mesh(const std::string &path,
-                                  const double size, const Carving *carving)
+NamedMesh BodyAssembly::make_mesh(const std::string &path, const double size,
+                                  const Carving *carving)
 {
   const std::string name = path.substr(path.find('/') + 1);
   ShapeRequest request{prm, file, path};
@@ -141,7 +141,8 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
       std::find_if(carvings.begin(), carvings.end(),
                    [&](const Carving &c) { return c.body == name; });
   const auto shape = shape_of(name);
-  const auto mesh = [&](const double size) {
+  const auto mesh = [&](const double size)
+  {
     return make_mesh(path, size,
                      carving == carvings.end() ? nullptr : &*carving);
   };
@@ -180,7 +181,7 @@ CarvedZone BodyAssembly::record(const Carving &carving) const
   if (size != cell_size.end())
     zone.spacing.fill(size->second);
   else
-    zone.spacing = bodies[zone.zone]->particles()->lattice_spacing();
+    zone.spacing = bodies[zone.zone]->facts().spacing;
   return zone;
 }
 } // namespace sabot

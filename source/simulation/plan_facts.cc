@@ -78,7 +78,8 @@ ImpactFacts find_impact(const std::vector<PlannedBody> &bodies)
   {
     double square = 0.;
     for (int d = 0; d < 3; ++d)
-      square += std::pow(bodies[a].facts.velocity[d] - bodies[b].facts.velocity[d], 2);
+      square += std::pow(
+          bodies[a].facts.velocity[d] - bodies[b].facts.velocity[d], 2);
     return std::sqrt(square);
   };
   const auto size = [&](const std::size_t b)

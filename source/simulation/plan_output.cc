@@ -202,8 +202,7 @@ void append_row(const Scene &scene, History &history)
   }
   Measures row;
   for (const auto &quantity : scene.quantities)
-    row.push_back(
-        {quantity.name, "1", scene.bodies[quantity.body]->measure().mass});
+    row.push_back({quantity->name, quantity->unit(), quantity->value()});
   if (!row.empty())
     history.append("quantities", row);
 }
@@ -314,8 +313,8 @@ double OutputEstimate::bytes(const double time) const
     columns += 1. + body->measure().columns().size();
   columns += scene.quantities.empty() ? 0. : 1. + scene.quantities.size();
   constexpr double result_and_log = 10e3;
-  return bytes + 8. * columns * n_rows(scene) + scene.expanded_parameters().size() +
-         result_and_log;
+  return bytes + 8. * columns * n_rows(scene) +
+         scene.expanded_parameters().size() + result_and_log;
 }
 
 double output_seconds(const Scene &scene, const double n_steps,

@@ -30,7 +30,8 @@ void judge_heat(const Scene &scene, PhysicsPlan &plan)
 {
   double spacing = never;
   for (const PlannedBody &body : plan.bodies)
-    spacing = std::min(spacing, body.facts.spacing);
+    for (const double h : body.facts.spacing)
+      spacing = std::min(spacing, h);
   const double fourier =
       largest_diffusivity * scene.settings.end_time / (spacing * spacing);
   plan.numbers.push_back(
@@ -45,7 +46,7 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
 {
   const ImpactFacts &impact = plan.impact;
   const PlannedBody &p = plan.bodies[impact.projectile],
-                  &t = plan.bodies[impact.target];
+                    &t = plan.bodies[impact.target];
   const Material &of_p = *p.facts.material, &of_t = *t.facts.material;
   const double Zp = of_p.density() * of_p.sound_speed(),
                Zt = of_t.density() * of_t.sound_speed();
@@ -56,9 +57,10 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
   const double pressure = impact.speed * (p_is_rigid   ? Zt
                                           : t_is_rigid ? Zp
                                                        : Zp * Zt / (Zp + Zt));
-  const double K = p_is_rigid   ? of_t.bulk_modulus()
-                   : t_is_rigid ? of_p.bulk_modulus()
-                                : std::min(of_p.bulk_modulus(), of_t.bulk_modulus());
+  const double K = p_is_rigid ? of_t.bulk_modulus()
+                   : t_is_rigid
+                       ? of_p.bulk_modulus()
+                       : std::min(of_p.bulk_modulus(), of_t.bulk_modulus());
   plan.numbers.push_back(
       {"impact pressure over bulk modulus", "v Z1 Z2 / (Z1 + Z2) / K",
        pressure / K,
@@ -69,12 +71,12 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
            : "an equation of state is needed"});
   if (pressure / K >= 0.3)
     for (const PlannedBody *const body : {&p, &t})
-      if (body->facts.deforms &&
-          !body->facts.material->has_equation_of_state())
+      if (body->facts.deforms && !body->facts.material->has_equation_of_state())
         plan.warnings.push_back("body \"" + body->name +
                                 "\" is shocked beyond a linear law, but its "
                                 "material \"" +
-                                body->facts.material->name + "\" has no equation of state");
+                                body->facts.material->name +
+                                "\" has no equation of state");
 
   if (p.yield_stress || t.yield_stress)
   {
@@ -109,7 +111,8 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
   for (int d = 0; d < 3; ++d)
     if (d != impact.axis)
       far = std::max(far, 0.5 * (t.high[d] - t.low[d]));
-  const double trips = of_t.sound_speed() * scene.settings.end_time / (2. * far);
+  const double trips =
+      of_t.sound_speed() * scene.settings.end_time / (2. * far);
   plan.numbers.push_back(
       {"round trips of waves to the far boundary", "c t / (2 L)", trips,
        trips < 1. ? "the boundary is not felt: body \"" + t.name +

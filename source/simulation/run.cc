@@ -185,8 +185,8 @@ void Run::make_step(const StepProposal &proposal)
   if (proposal.dt < 1e-4 * smallest_step && stepper.steps() > 10)
     throw PhysicsError("the stable step collapsed from " +
                        format("%.3e", smallest_step) + " s to " +
-                       format("%.3e", proposal.dt) +
-                       " s (limiter: " + limiter + ")");
+                       format("%.3e", proposal.dt) + " s (limiter: " + limiter +
+                       ")");
   if (dt < scene.settings.end_time - stepper.time())
     smallest_step = std::min(smallest_step, proposal.dt);
   within_step = true;
@@ -274,10 +274,10 @@ void Run::write_result(const std::string &status, const std::string &reason)
 {
   const std::vector<ZoneVerdict> zones =
       judge_zones(scene, timers, stepper.steps(), communicator);
-  const RunSummary summary{status,          reason,
-                           n_ranks,         stepper.steps(),
-                           stepper.time(),  earlier_seconds + seconds_since_start(),
-                           smallest_step};
+  const RunSummary summary{
+      status,          reason,         n_ranks,
+      stepper.steps(), stepper.time(), earlier_seconds + seconds_since_start(),
+      smallest_step};
   const nlohmann::ordered_json result =
       make_result(scene, summary, balance, timers, zones, communicator);
   std::string problem;

@@ -194,9 +194,9 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
   r["wall_seconds"] = summary.wall_seconds;
   add_resources(r, communicator);
   r["energy_residual_max"] = number(balance.largest_residual());
-  r["momentum_residual_max"] =
-      scene.is_free ? number(balance.largest_momentum_residual())
-                    : ordered_json(nullptr);
+  r["momentum_residual_max"] = scene.is_free
+                                   ? number(balance.largest_momentum_residual())
+                                   : ordered_json(nullptr);
   r["stable_step_min"] =
       summary.steps > 0 ? number(summary.smallest_step) : ordered_json(nullptr);
   r["bodies"] = body_results(scene);

@@ -18,10 +18,10 @@ void declare_top(Parameters &prm)
   prm.declare_entry("End time", "0.1 ms", quantity(Dimension::time, 1e-12, 1e3),
                     "Physical time at which the run ends.");
   prm.declare_knob("Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
-                    "Step over the least stable step of bodies and "
-                    "couplings; above 1 the run is expected to be caught.");
+                   "Step over the least stable step of bodies and "
+                   "couplings; above 1 the run is expected to be caught.");
   prm.declare_knob("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
-                    "Upper bound of the step.");
+                   "Upper bound of the step.");
   prm.declare_entry("Energy residual limit", "0.05",
                     quantity(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
@@ -171,8 +171,8 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
   each("Quantities", {"<name>"},
        [&](const std::string &path, const auto &)
        {
-         declare_quantity(prm,
-                          file == nullptr ? "" : read(path + "/Type", "velocity"));
+         declare_quantity(
+             prm, file == nullptr ? "" : read(path + "/Type", "velocity"));
        });
 }
 } // namespace sabot

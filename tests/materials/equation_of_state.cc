@@ -1,3 +1,4 @@
+#include "sabot/materials/mie_gruneisen.h"
 #include "point.h"
 #include "verification/metals.h"
 

@@ -7,8 +7,8 @@
 
 namespace sabot
 {
-/** What the process returns to the shell; their meaning stands in
-    exit_code_meanings. */
+/** What the process returns to the shell; what each means stands in
+    exit_code_meanings(), from which the reference is made. */
 enum class ExitCode : int
 {
   done = 0,
@@ -18,33 +18,24 @@ enum class ExitCode : int
   io_failed = 4
 };
 
+/** A row of the reference's page on exit codes. */
 struct ExitCodeMeaning
 {
   ExitCode code;
-  const char *meaning;
+  const char *meaning; // in sentences
 };
 
-/** What each exit code tells scripts, for the reference. */
-inline constexpr std::array<ExitCodeMeaning, 5> exit_code_meanings = {{
-    {ExitCode::done, "Done: the run reached its end, the scene is valid, all "
-                     "checks passed."},
-    {ExitCode::bad_input,
-     "Bad input: a parameter file or the command line; nothing was run. The "
-     "message names file, line and what would be right."},
-    {ExitCode::physics_failed,
-     "The run went wrong: not-a-number, energy balance, a collapsing step; or "
-     "a run of a study or a check of `sabot verify` failed. `result.json` of a "
-     "run says why."},
-    {ExitCode::interrupted,
-     "A signal (SIGINT, SIGTERM) stopped it; `sabot resume` or the same study "
-     "again goes on."},
-    {ExitCode::io_failed, "A file could not be written or read."},
-}};
+/** What each exit code tells scripts that start the program: the program's own
+    commands agree on it, so that a study or a shell may act on it without
+    reading messages. By number. */
+const std::array<ExitCodeMeaning, 5> &exit_code_meanings();
 
 /**
  * Bad input, found while reading or checking a scene. @p parameter is the path
- * of the entry, e.g. "Bodies/plate/Size" (or empty); the reader adds file and
- * line.
+ * of the entry, e.g. "Bodies/plate/Size" (or empty); whoever has the file adds
+ * name and line of it (ParameterFile::origin()). The message says what is
+ * wrong, with the value that was found, and what would be right: one line.
+ * Thrown on all ranks alike, before anything is written.
  */
 class InputError : public std::runtime_error
 {

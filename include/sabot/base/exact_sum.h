@@ -12,23 +12,33 @@ __extension__ typedef __int128 Int128;
 /**
  * A sum that does not depend on the order of its terms, hence not on the
  * number of ranks: fixed point in a 128-bit integer with unit 2^-80 and range
- * +-1.4e14 (SI units). Each term is cut once, to 8e-25.
- * A term that is not finite or out of range makes the sum not-a-number.
+ * +-1.4e14 (SI units). Each term is cut once, to 8e-25; what is added after
+ * that is exact, other than with the compensated sums of Kahan or Neumaier,
+ * which still depend on the order.
+ *
+ * A term that is not finite, or of 7e13 and more, makes the sum not-a-number:
+ * trouble stays visible, and is counted rather than added, so that it does not
+ * depend on the order either.
  */
 class ExactSum
 {
 public:
+  /** Add a term, cut towards zero to a multiple of 2^-80. */
   void add(const double value);
+  /** Add another sum, without any error. */
   void add(const ExactSum &other);
+  /** Take another sum off, without any error; what was not a number stays. */
   void subtract(const ExactSum &other);
-  /** The sum, rounded to double. */
+  /** The sum, rounded to the nearest double; NaN when a term was not valid. */
   double value() const;
-  /** Sum over all ranks of every entry; all ranks must call it. */
+  /** Replace every one of @p sums by its sum over the ranks of
+      @p communicator, the same bits on all of them. Collective, with one
+      message for all: ranks must give the same number of sums in one order. */
   static void reduce(std::vector<ExactSum *> sums, MPI_Comm communicator);
 
 private:
-  Int128 sum = 0;
-  long n_invalid = 0;
+  Int128 sum = 0;     // in units of 2^-80
+  long n_invalid = 0; // terms that were not added
 };
 } // namespace sabot
 

@@ -11,9 +11,15 @@
 namespace sabot
 {
 /**
- * Copies values of owned items to the ranks that hold them as ghosts.
- * The arrays have n_owned + n_ghost entries, ghosts last. Built once per
- * neighbourhood; an update moves each value as one block of bytes.
+ * Copies values of owned items (nodes, bonds) to the ranks that hold them as
+ * ghosts. The arrays have n_owned + n_ghost entries, ghosts last. Built once
+ * per neighborhood; an update moves each value as one block of bytes, so that
+ * any type without pointers will do and its bits arrive as they were.
+ *
+ * Who sends what to whom is found by the owners themselves: a rank tells the
+ * owner of each ghost the key under which it wants it, and gets the values in
+ * that order from then on. With one rank, or where no rank shares anything,
+ * all functions return at once.
  */
 class GhostExchange
 {
@@ -21,10 +27,12 @@ public:
   GhostExchange() = default;
 
   /**
-   * @param ghost_owner  rank that owns each ghost
-   * @param ghost_key    key by which that rank knows the item
-   * @param find_owned   key -> index of the owned item there
-   * All ranks must call it.
+   * Agree with the other ranks on what is sent. Collective.
+   * @param n_owned      items before the first ghost
+   * @param ghost_owner  [n_ghost], rank that owns each ghost
+   * @param ghost_key    [n_ghost], key by which that rank knows the item
+   * @param find_owned   called with a key, gives the index of the owned item
+   *                     there; it must exist
    */
   template <typename Find>
   GhostExchange(MPI_Comm communicator, const std::size_t n_owned,
@@ -39,7 +47,9 @@ public:
       send_item.push_back(find_owned(key));
   }
 
-  /** Fill the ghost entries of @p data; all ranks must call it. */
+  /** Fill the ghost entries of @p data, [n_owned + n_ghost], with what their
+      owners have. Collective: all ranks that share items must call it for the
+      same array. The rank that owns nothing of others' still sends. */
   template <typename T>
   void update(T *data) const
   {
@@ -56,11 +66,15 @@ public:
   }
 
   std::size_t n_ghosts() const { return receive_item.size(); }
+  /** Whether this rank neither sends nor receives. */
   bool is_trivial() const { return peer.empty(); }
 
 private:
+  /** Tell the owners what is wanted of them. @return the keys that are wanted
+      of this rank, peer by peer. Collective. */
   std::vector<GlobalIndex> set_up(const std::vector<int> &ghost_owner,
                                   const std::vector<GlobalIndex> &ghost_key);
+  /** Exchange the buffers with all peers, items of @p item_size bytes. */
   void transfer(const std::size_t item_size) const;
 
   MPI_Comm communicator = MPI_COMM_SELF;
@@ -69,6 +83,7 @@ private:
   std::vector<std::size_t> send_start, receive_start; // per peer
   std::vector<std::size_t> send_item;    // owned indices, peer by peer
   std::vector<std::size_t> receive_item; // ghost numbers, peer by peer
+  // Kept between calls: they are as long each time.
   mutable std::vector<char> send_buffer, receive_buffer;
 };
 } // namespace sabot

@@ -45,44 +45,8 @@ struct EnergyTerm
   ExactSum EnergyLedger::*sum;
 };
 
-inline constexpr std::array<EnergyTerm, 11> energy_terms = {{
-    {"kinetic", EnergyTerm::Role::part, "1/2 m v^2 of all nodes.",
-     &EnergyLedger::kinetic},
-    {"internal", EnergyTerm::Role::part,
-     "Work of the stresses, trapezoidal in time: elastic energy, plastic work "
-     "and bulk viscosity.",
-     &EnergyLedger::internal},
-    {"stabilisation", EnergyTerm::Role::part,
-     "Work of the forces that stabilize particles.",
-     &EnergyLedger::stabilization},
-    {"hourglass", EnergyTerm::Role::part,
-     "Work of the hourglass forces of one-point hexahedra.",
-     &EnergyLedger::hourglass},
-    {"contact", EnergyTerm::Role::part,
-     "Minus the work of the contact forces without their tangential part.",
-     &EnergyLedger::contact},
-    {"friction", EnergyTerm::Role::part,
-     "Minus the work of the tangential contact forces.",
-     &EnergyLedger::friction},
-    {"eroded", EnergyTerm::Role::part,
-     "Energy of eroded cells and of nodes that lost all their cells: still of "
-     "the scene, but out of reach of its bodies.",
-     &EnergyLedger::eroded},
-    {"external", EnergyTerm::Role::supplied,
-     "Work done on the scene from outside, by prescribed motion.",
-     &EnergyLedger::external},
-    {"plastic work", EnergyTerm::Role::information,
-     "Part of internal that plastic flow dissipated.",
-     &EnergyLedger::plastic_work},
-    {"failure", EnergyTerm::Role::information,
-     "Part of internal and stabilization that failed bonds and cracks let go: "
-     "neither motion nor any body's elastic energy gets it back.",
-     &EnergyLedger::failure},
-    {"tie", EnergyTerm::Role::part,
-     "Minus the work of the ties on followers and leaders together: zero but "
-     "for round-off.",
-     &EnergyLedger::tie},
-}};
+/** Every term once, in the order of the history's columns. */
+extern const std::array<EnergyTerm, 11> energy_terms;
 
 template <typename Function>
 void EnergyLedger::for_each(const Function &f) const

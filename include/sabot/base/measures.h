@@ -8,7 +8,8 @@
 
 namespace sabot
 {
-/** A named number with its SI unit, for histories and results. */
+/** A named number with its SI unit ("1" for a pure number), for histories and
+    results: a column "name [unit]". */
 struct Measure
 {
   std::string name, unit;
@@ -46,7 +47,8 @@ struct BodyMeasures
   }
 };
 
-/** Values of one output field on the points or cells of an OutputMesh. */
+/** Values of one output field on the points or cells of an OutputMesh. Name,
+    unit and components are those of its description (output_fields.h). */
 struct OutputField
 {
   std::string name, unit;
@@ -54,8 +56,11 @@ struct OutputField
   std::vector<double> values;    // [n_items * n_components]
 };
 
-/** What one rank writes of one body: shared nodes on the deformed
-    configuration, hexahedra or single points. */
+/**
+ * What one rank writes of one body: shared nodes on the deformed
+ * configuration, hexahedra or single points. A rank without nodes of the body
+ * has empty arrays, but the same fields, so that the pieces fit together.
+ */
 struct OutputMesh
 {
   std::vector<double> points;             // [n_points * 3]

@@ -6,8 +6,12 @@
 
 namespace sabot
 {
-/** The entry of @p allowed (not empty) with the least edit distance to
-    @p name, upper and lower case alike. */
+/**
+ * The entry of @p allowed (not empty) with the least distance to @p name: the
+ * least number of letters to insert, delete or replace (Levenshtein 1966),
+ * upper and lower case alike; of several the first. For "did you mean ...?" of
+ * messages: there is an answer however far it is.
+ */
 std::string nearest_name(const std::string &name,
                          const std::vector<std::string> &allowed);
 

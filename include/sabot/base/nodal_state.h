@@ -10,22 +10,35 @@ namespace sabot
 {
 /**
  * The nodes of one body on this rank: owned ones first, ghosts after, each
- * group in ascending global order. One contiguous array per quantity; SI.
+ * group in ascending global order. One contiguous array per quantity; SI;
+ * vectors in the fixed frame of the scene. The integrator, the couplings and
+ * the output see a body's nodes through this alone, whatever it is made of.
+ *
+ * Ghosts are copies of nodes that another rank owns; the body fills position
+ * and velocity of ghosts in update_ghosts(), the other arrays as it needs
+ * them.
  */
 struct NodalState
 {
   std::size_t n_owned = 0;
+  /** Number in the body, the same for every number of ranks. */
   std::vector<GlobalIndex> global_id;    // [n_owned + n_ghost]
   AlignedVector<Vec> reference_position; // [n_owned + n_ghost]
   AlignedVector<Vec> position;           // [n_owned + n_ghost]
   AlignedVector<Vec> velocity;           // [n_owned + n_ghost]
-  AlignedVector<Vec> force;              // [n_owned + n_ghost], owned used
-  std::vector<double> lumped_mass;       // [n_owned + n_ghost]
-  /** Mass that the integrator divides by: the lumped mass, plus what tied
+  /** External - internal - stabilization, then with what couplings add: [N],
+      of owned nodes. Ghosts' entries are not used. */
+  AlignedVector<Vec> force; // [n_owned + n_ghost]
+  /** Row sum of the mass matrix, or a particle's mass [kg]; constant but for
+      erosion. Adds up to the body's mass. */
+  std::vector<double> lumped_mass; // [n_owned + n_ghost]
+  /** Mass that the integrator divides by [kg]: the lumped mass, plus what tied
       followers add; 0 for a follower, which the tie moves. */
   std::vector<double> inertia; // [n_owned + n_ghost]
 
+  /** n_owned + n_ghost. */
   std::size_t size() const { return global_id.size(); }
+  /** Make room for @p n nodes; n_owned stays as it is. */
   void resize(const std::size_t n)
   {
     global_id.resize(n);

@@ -6,7 +6,7 @@
 
 namespace sabot
 {
-/** What a field of the output means. */
+/** What a field of the output means: a row of the reference. */
 struct FieldDescription
 {
   std::string name, unit;    // SI
@@ -15,7 +15,8 @@ struct FieldDescription
   std::string meaning;       // with frame and sign, one or two sentences
 };
 
-/** All fields that some body or material may write, sorted by name. */
+/** All fields that some body or material may write, sorted by name. A body
+    writes those it has; doc/reference/fields.md is this list. */
 const std::vector<FieldDescription> &described_fields();
 
 /** The description of a field; std::logic_error for one without, so that

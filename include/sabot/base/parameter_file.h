@@ -28,8 +28,11 @@ public:
   ParameterFile(const std::string &file,
                 const std::vector<std::string> &overrides);
 
-  /** Names of the subsections below @p path ("Bodies"), in order. */
+  /** Names of the subsections directly below @p path ("Bodies"), in the order
+      in which files and overrides first name them. */
   std::vector<std::string> subsections(const std::string &path) const;
+  /** Whether a file or an override sets the entry @p path
+      ("Bodies/plate/Size"); defaults do not count. */
   bool is_set(const std::string &path) const;
   /** Text of an entry, or @p standard where it is not set. */
   std::string value(const std::string &path, const std::string &standard) const;
@@ -37,23 +40,29 @@ public:
       path that is not set, the nearest enclosing subsection that is. */
   std::string origin(const std::string &path) const;
 
-  /** Set what the file sets. Every entry must be declared in @p prm. */
+  /** Set in @p prm what the file sets. InputError, with file and line, the
+      nearest name, and what is allowed there, for an entry that is not
+      declared or does not accept its value. */
   void parse_into(Parameters &prm) const;
   /** Entries that go by a name of an earlier version (entry_aliases.h), one
       line for each name; lookups know the present names only. */
   const std::vector<std::string> &notes() const { return said; }
 
-  const std::string file_name;
+  const std::string file_name; // as given: the top of the includes
 
 private:
+  /** What one line, or one override, sets. */
   struct Entry
   {
     std::vector<std::string> section;
     std::string name, value, origin, file;
   };
+  /** Read a file into the subsection @p section; @p included_at is where it
+      was included, @p open_files those that are being read. */
   void read(const std::string &file, const std::string &included_at,
             std::vector<std::string> &section,
             std::vector<std::string> &open_files);
+  /** Enter under the present name; the last of several files wins. */
   void add(const Entry &entry);
 
   std::vector<Entry> entries;                // in order, each path once
@@ -70,12 +79,13 @@ void print_tables(const Parameters &prm, std::ostream &out);
 /** The same below a title. */
 void print_manual(const Parameters &prm, std::ostream &out);
 
-/** The declared entries in a @p format that deal.II offers: "prm", "json" or
-    "xml"; anything else: its own description. */
+/** The declared entries with their present values in a @p format that deal.II
+   offers: "prm", "json" or "xml"; anything else: its own description. */
 void print_parameters(const Parameters &prm, const std::string &format,
                       std::ostream &out);
 
-/** All parameters with their present values, as a parameter file. */
+/** All parameters with their present values, as a parameter file that gives
+    the same run again: what a run leaves as parameters.prm. */
 void print_expanded(const Parameters &prm, std::ostream &out);
 } // namespace sabot
 

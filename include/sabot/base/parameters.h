@@ -41,13 +41,19 @@ private:
   std::shared_ptr<const dealii::Patterns::PatternBase> base;
 };
 
-/** Any text. */
+// What entries may be. The description of each says in the manual and in
+// messages what is right.
+
+/** Any text, also none. */
 Pattern any_text();
-/** Names separated by commas. */
+/** Names separated by commas, up to 1000; also none. split_names() takes them
+    apart. */
 Pattern name_list();
-/** One of the words in @p words, separated by '|'. */
+/** One of the words in @p words, separated by '|'; a word may have blanks. */
 Pattern one_of(const std::string &words);
+/** "true" or "false". */
 Pattern boolean();
+/** A whole number in [low, high]; a bound that is not given is none. */
 Pattern integer(const int low = -2147483647, const int high = 2147483647);
 /** A number with an optional unit ("12.7 mm", "324 MPa", "1e-4"), without one
     in SI; refuses other dimensions and values outside [min, max] (SI). */
@@ -75,6 +81,11 @@ public:
   Parameters(const Parameters &) = delete;
   Parameters &operator=(const Parameters &) = delete;
 
+  /** Declare an entry of the present subsection.
+      @param standard  its default, as a file would have it; it must match
+                       @p pattern
+      @param meaning   for the manual: what it does, in a sentence or two, with
+                       the formula's letter; the pattern says unit and range */
   void declare_entry(const std::string &name, const std::string &standard,
                      const Pattern &pattern, const std::string &meaning = "");
   /** The same for an entry that trades speed for accuracy: result.json lists
@@ -83,13 +94,18 @@ public:
                     const Pattern &pattern, const std::string &meaning);
   /** Path and value of all knobs, in the order of their declaration. */
   std::vector<std::pair<std::string, std::string>> knobs();
+  /** Go down into the subsection @p name of the present one, which comes into
+      being with its first entry; and up again. See Entered. */
   void enter_subsection(const std::string &name);
   void leave_subsection();
 
   /** Text of an entry; throws std::logic_error for one not declared. */
   std::string get(const std::string &name) const;
+  /** Value of an entry declared with boolean(). */
   bool get_bool(const std::string &name) const;
+  /** Value of an entry declared with integer(). */
   long get_integer(const std::string &name) const;
+  /** Whether the present subsection has this entry; for subsections never. */
   bool is_declared(const std::string &name) const;
   /** Names of the entries declared here, subsections left out. */
   std::vector<std::string> entry_names() const;
@@ -106,7 +122,8 @@ private:
   std::vector<std::vector<std::string>> all_knobs; // sections and name
 };
 
-/** Enters Section/name of the parameters while it lives. */
+/** Enters Section/name of the parameters while it lives: also an exception
+    leaves them again. */
 class Entered
 {
 public:
@@ -128,6 +145,9 @@ private:
   Parameters &prm;
 };
 
+// Values of entries of the present subsection; std::logic_error for one that
+// was not declared.
+
 /** Value in SI units of an entry declared with quantity(). */
 double get_quantity(const Parameters &prm, const std::string &name);
 /** The same of an entry declared with word_or(word, quantity()): nothing where
@@ -143,7 +163,7 @@ std::array<double, 3> get_vector(const Parameters &prm,
 /** SI value of a text that quantity() accepts for some dimension, e.g. "1.27
     mm"; nothing where there is no such dimension. */
 std::optional<double> read_quantity(const std::string &text);
-/** Entries of a comma-separated list of names, trimmed, empty ones dropped. */
+/** Names of a text that name_list() accepts, trimmed, empty ones dropped. */
 std::vector<std::string> split_names(const std::string &text);
 } // namespace sabot
 

@@ -11,15 +11,19 @@
 namespace sabot
 {
 /**
- * Pattern of a number with an optional unit ("12.7 mm", "324 MPa", "1e-4"); a
- * number alone is in SI units. Refuses other dimensions and values outside
- * [min, max] (SI); its description names the range and the units it takes.
+ * deal.II's pattern of a number with an optional unit ("12.7 mm", "324 MPa",
+ * "1e-4"); a number alone is in SI units. Refuses other dimensions, what is not
+ * finite, and values outside [min, max] (SI, inclusive); its description names
+ * the range and the units it takes. Models use quantity() of parameters.h,
+ * which needs no deal.II.
  */
 class QuantityPattern : public dealii::Patterns::PatternBase
 {
 public:
+  /** From here on a bound is none. */
   static constexpr double infinity = 1e300;
 
+  /** One quantity. */
   QuantityPattern(const Dimension dimension, const double min = -infinity,
                   const double max = infinity);
   /** A comma-separated list of @p n_min to @p n_max quantities. */
@@ -27,19 +31,22 @@ public:
                   const unsigned int n_max, const double min, const double max);
 
   bool match(const std::string &text) const override;
+  /** "a length from 0 to 1 m (units m, cm, ...; a number alone is in m)",
+      whatever the @p style. */
   std::string description(const OutputStyle style = Machine) const override;
   std::unique_ptr<PatternBase> clone() const override;
 
 private:
   Dimension dimension;
   unsigned int n_min = 1, n_max = 1;
-  double min, max;
+  double min, max; // SI
 };
 
-/** SI value of a number with an optional unit; throws std::invalid_argument for
-    any other text. */
+/** SI value of a number with an optional unit of any dimension;
+    std::invalid_argument for any other text. */
 double to_si(const std::string &text);
-/** Parts between commas, trimmed. */
+/** Parts between commas, trimmed; what follows a last comma counts, though
+    empty, so that "1, 2," has three and is refused where two are asked. */
 std::vector<std::string> split_at_commas(const std::string &text);
 } // namespace sabot
 

@@ -12,8 +12,9 @@
 
 namespace sabot
 {
-/** What a registry holds, without its types: for the manual, for lists of
-    names, and for the test that looks every entry up in the manual. */
+/** What a registry holds, without its types: for the reference, for lists of
+    names, and for the test that looks every entry up in the manual. Names and
+    descriptions are as the parameter files and the manual have them. */
 struct RegistryContents
 {
   struct Item
@@ -24,10 +25,11 @@ struct RegistryContents
   std::vector<Item> items;
 };
 
-/** All registries that have an entry, sorted by kind. */
+/** All registries that have an entry, sorted by kind; complete once main() has
+    begun. */
 std::vector<RegistryContents> all_registries();
 
-/** Makes a registry known to all_registries(). */
+/** Makes a registry known to all_registries(); its first Add does so. */
 void add_registry(RegistryContents (*contents)());
 
 /**
@@ -38,7 +40,8 @@ void add_registry(RegistryContents (*contents)());
  *     const Registry<FrictionLaw>::Add coulomb({"Coulomb", "...", declare,
  *                                               make});
  *
- * Menus, messages and the manual follow from the registry. @p Product is the
+ * Menus, messages, the manual and doc/reference/registries.md follow from the
+ * registry: nothing else names its entries. @p Product is the
  * interface of the kind; it names the kind and the signature that makes it:
  *
  *     static constexpr const char *kind = "friction law";
@@ -59,10 +62,13 @@ public:
     /** Declares the entries that only this choice has, in the subsection that
         makes the choice; empty where it has none. */
     std::function<void(Parameters &)> declare;
+    /** Makes the object from the values of these entries; checks what the
+        patterns cannot. */
     std::function<typename Product::Make> make;
   };
 
-  /** Registers an entry; one static object at the end of its file. */
+  /** Registers an entry; one static object at the end of its file, made before
+      main(). Two entries must not have one name. */
   struct Add
   {
     explicit Add(Entry entry)
@@ -78,9 +84,12 @@ public:
     }
   };
 
-  /** All choices, sorted by name. */
+  /** All choices, sorted by name: the same order in every build, on which the
+      manual and equal runs rely. */
   static const std::vector<Entry> &entries() { return list(); }
 
+  /** The choice called @p name, upper and lower case told apart; null where
+      there is none. */
   static const Entry *find(const std::string &name)
   {
     for (const Entry &entry : list())
@@ -103,8 +112,10 @@ public:
                                nearest_name(name, names) + "\"?");
   }
 
-  /** Declares the entry @p name that makes the choice. The meaning is
-      @p lead, followed by every choice with its description. */
+  /** Declares the entry @p name that makes the choice, with the default
+      @p standard. The meaning is @p lead, followed by every choice with its
+      description: "Constitutive law. Elastic: hypoelastic, ...". Values other
+      than the choices are refused as the file is read. */
   static void declare_choice(Parameters &prm, const std::string &name,
                              const std::string &standard,
                              const std::string &lead)

@@ -30,7 +30,8 @@ public:
       made anew. */
   virtual bool is_restoring() const { return false; }
 
-  /** An array that has the length it must have. */
+  /** An array that has the length it must have, of objects without
+      pointers. */
   template <typename Array>
   void visit_array(const std::string &name, Array &data)
   {

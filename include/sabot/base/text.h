@@ -6,6 +6,8 @@
 
 namespace sabot
 {
+// Nothing here knows of parameter files, units or locales.
+
 /** @p text without blanks, tabs and line ends at both sides. */
 std::string trim(const std::string &text);
 

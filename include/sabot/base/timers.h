@@ -7,13 +7,19 @@
 
 namespace sabot
 {
-/** Wall-clock seconds per named phase of a run. */
+/**
+ * Wall-clock seconds per named phase of a run on this rank ("spg step",
+ * "contact", "output"), for `timers` of result.json. A scope costs two reads
+ * of the clock and a look-up by name: for phases of a step, not for what is
+ * done per particle. Scopes may stand within each other: the outer
+ * one counts the time of the inner one, too.
+ */
 class Timers
 {
 public:
   struct Phase
   {
-    double seconds = 0.;
+    double seconds = 0.; // sum over all calls
     long calls = 0;
   };
   /** Measures until it goes out of scope. */
@@ -37,11 +43,13 @@ public:
     Phase &phase;
     const std::chrono::steady_clock::time_point start;
   };
+  /** Start the phase @p name; it ends with the object that is returned. */
   Scope scope(const std::string &name) { return Scope(phases[name]); }
+  /** Phases that were met, by name. */
   const std::map<std::string, Phase> &all() const { return phases; }
 
 private:
-  std::map<std::string, Phase> phases;
+  std::map<std::string, Phase> phases; // scopes keep references to its values
 };
 } // namespace sabot
 

@@ -9,10 +9,15 @@
 
 namespace sabot
 {
-/** Number of a node or cell in its body, the same on every rank. */
+/** Number of a node or cell in its body, the same on every rank and for every
+    number of ranks; from 0, negative for none. */
 using GlobalIndex = std::int64_t;
 
-/** Allocator for arrays of Vec and for loops that the compiler vectorises. */
+/**
+ * Allocator for arrays of Vec, which needs 32 bytes, and for loops that the
+ * compiler vectorizes: 64 bytes are a line of the cache and a register of
+ * AVX-512. Without state: all are equal, so vectors may be moved and swapped.
+ */
 template <typename T>
 struct AlignedAllocator
 {
@@ -22,6 +27,7 @@ struct AlignedAllocator
   AlignedAllocator(const AlignedAllocator<U> &)
   {
   }
+  /** Throws std::bad_alloc as the standard's does. */
   T *allocate(const std::size_t n)
   {
     return static_cast<T *>(
@@ -43,6 +49,7 @@ struct AlignedAllocator
   }
 };
 
+/** std::vector whose first entry lies at a multiple of 64 bytes. */
 template <typename T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 } // namespace sabot

@@ -14,6 +14,7 @@ namespace sabot
 class BulkModulus : public EquationOfState
 {
 public:
+  /** @p K in Pa. */
   explicit BulkModulus(const double K) : K(K) {}
   double bulk_modulus() const override { return K; }
   bool is_linear() const override { return true; }

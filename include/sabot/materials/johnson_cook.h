@@ -5,11 +5,18 @@
 
 namespace sabot
 {
-/** Johnson & Cook 1983, fracture 1985. */
+/**
+ * G. R. Johnson and W. H. Cook, A constitutive model and data for metals
+ * subjected to large strains, high strain rates and high temperatures, 7th Int.
+ * Symp. Ballistics, 1983; fracture: Eng. Fract. Mech. 21 (1985) 31, doi
+ * 10.1016/0013-7944(85)90052-9. Letters as there.
+ */
 struct JohnsonCookParameters
 {
-  double A = 0., B = 0.; // [Pa]
-  double n = 1., C = 0., m = 1.;
+  double A = 0., B = 0.;             // initial yield stress, hardening [Pa]
+  double n = 1.;                     // exponent of hardening
+  double C = 0.;                     // rate coefficient
+  double m = 1.;                     // exponent of thermal softening
   double reference_strain_rate = 1.; // [1/s]
   double room_temperature = 294.;    // [K]
   double initial_temperature = 294.; // [K]
@@ -19,20 +26,28 @@ struct JohnsonCookParameters
   double conductivity = 0.;          // [W/m/K]
   double thermal_expansion = 0.;     // linear [1/K]
   bool has_damage = false;
-  double D[5] = {0., 0., 0., 0., 0.};
+  double D[5] = {0., 0., 0., 0., 0.}; // D1 to D5
+  /** Bound of the fracture strain from below, which some sets make negative at
+      high triaxiality. */
   double smallest_fracture_strain = 0.01;
 };
 
 /**
- * sigma_y = (A + B eps^n)(1 + C ln eps*)(1 - T*^m), eps* = rate/reference >= 1,
- * T* = (T - T_room)/(T_melt - T_room) in [0, 1].
+ * The Flow (see RateDependentPlasticity)
+ *
+ *   sigma_y = (A + B eps^n)(1 + C ln eps*)(1 - T*^m),
+ *
+ * eps* = rate/reference, at least 1, and T* = (T - T_room)/(T_melt - T_room)
+ * in [0, 1]: slower than the reference rate there is no effect of rate, below
+ * room temperature no softening, above melt no strength. The slope with eps is
+ * that of a step: with the rate eps/dt it has the part of the logarithm, too.
  */
 struct JohnsonCookFlow
 {
   static constexpr bool constant_shear_modulus = true;
   struct Point
   {
-    double thermal; // 1 - T*^m
+    double thermal; // 1 - T*^m, fixed during the return
   };
   JohnsonCookParameters p;
 
@@ -41,6 +56,8 @@ struct JohnsonCookFlow
     return {thermal_factor(temperature)};
   }
   double lower_bound(const Point &point) const { return point.thermal * p.A; }
+  /** sigma_y [Pa] at strain @p eps and @p rate [1/s]; strains below 1e-14
+      count as that, where the slope of the power law has no bound. */
   double stress(const Point &point, const double eps, const double rate,
                 const double dt, double &slope) const
   {
@@ -55,12 +72,14 @@ struct JohnsonCookFlow
   }
   double shear_factor(const Point &) const { return 1.; }
 
+  /** T* of @p temperature [K], within [0, 1]. */
   double homologous(const double temperature) const
   {
     return std::min(
         1., std::max(0., (temperature - p.room_temperature) /
                              (p.melt_temperature - p.room_temperature)));
   }
+  /** 1 - T*^m of @p temperature [K], without a power where it is 0 or 1. */
   double thermal_factor(const double temperature) const
   {
     const double T = homologous(temperature);
@@ -83,19 +102,21 @@ class JohnsonCook : public RateDependentPlasticity<JohnsonCookFlow>
 public:
   JohnsonCook(const ElasticConstants &elastic,
               const JohnsonCookParameters &parameters, const Eos &eos = {});
-  /** Flow stress [Pa]; the slope with eps is returned through @p slope. */
+  /** Flow stress [Pa] at strain @p eps, @p rate [1/s] and 1 - T*^m; its slope
+      with eps at fixed @p dt is returned through @p slope. */
   double flow_stress(const double eps, const double rate,
                      const double thermal_factor, const double dt,
                      double &slope) const
   {
     return flow.stress({thermal_factor}, eps, rate, dt, slope);
   }
-  /** 1 - T*^m. */
+  /** 1 - T*^m of @p temperature [K]. */
   double thermal_factor(const double temperature) const
   {
     return flow.thermal_factor(temperature);
   }
-  /** eps_f at stress triaxiality @p triaxiality. */
+  /** eps_f at @p triaxiality sigma*, @p rate [1/s] and @p temperature [K], at
+      least the smallest. */
   double fracture_strain(const double triaxiality, const double rate,
                          const double temperature) const;
 

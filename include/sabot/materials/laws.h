@@ -9,7 +9,12 @@
 
 namespace sabot
 {
-/** Hypoelastic deviator. */
+/**
+ * Hypoelastic deviator: the objective rate of s is 2 G dev(D). Which rate is
+ * the body's business, as it rotates the stress before. For strains of metals;
+ * along closed cycles of large shear the Jaumann rate leaves stress behind. It
+ * never yields.
+ */
 class Elastic : public ElasticBase
 {
 public:
@@ -20,7 +25,7 @@ protected:
                        Scratch &scratch) const override;
 };
 
-/** J2 plasticity with mixed hardening. */
+/** J2 plasticity with mixed hardening: a line, or a table. */
 struct HardeningParameters
 {
   double yield_stress = 0.;       // [Pa]
@@ -32,7 +37,8 @@ struct HardeningParameters
 };
 
 /**
- * Radial return in closed form (Simo & Hughes 1998, box 3.2): with
+ * Radial return in closed form (J. C. Simo and T. J. R. Hughes, Computational
+ * Inelasticity, 1998, box 3.2): with
  * xi = s - alpha, the hardening curve Y(eps) in monotonic loading and the
  * isotropic fraction beta,
  *
@@ -40,15 +46,20 @@ struct HardeningParameters
  *         = Y(0) + beta (Y(eps + d) - Y(0)),
  *   d_alpha = (1 - beta)(Y(eps + d) - Y(eps)) xi/q.
  *
- * Y is a line or piecewise linear; the return walks through its pieces.
+ * Y is a line or piecewise linear; the return walks through its pieces. States:
+ * the effective plastic strain, and where beta < 1 the back stress alpha
+ * (deviatoric, rotated with the stress). No effect of rate or temperature.
  */
 class HardeningPlasticity : public ElasticBase
 {
 public:
+  /** Tables must have been checked: strains from 0 on, increasing; stresses
+      not decreasing. */
   HardeningPlasticity(const ElasticConstants &elastic,
                       const HardeningParameters &parameters,
                       const Eos &eos = {});
 
+  /** Y(0) [Pa]. */
   std::optional<double> initial_yield_stress() const override
   {
     return pieces[0].stress;
@@ -60,19 +71,23 @@ protected:
                        Scratch &scratch) const override;
 
 private:
+  /** A part of Y on which it is a line. */
   struct Piece
   {
     double strain, stress, slope; // at the start of the piece
   };
-  std::vector<Piece> pieces;
+  std::vector<Piece> pieces; // at least one, by strain
   const double isotropic_fraction;
 };
 
 /**
- * Compressible neo-Hookean (Simo & Pister 1984): deviator of the Cauchy stress
- * G J^(-5/3) dev(F F^T), from U = G/2 (J^(-2/3) tr F F^T - 3); with the
- * pressure -K ln J of the bulk modulus U has the volumetric part
- * K (J ln J - J + 1). Path-independent.
+ * Compressible neo-Hookean (J. C. Simo and K. S. Pister, Comput. Methods Appl.
+ * Mech. Eng. 46 (1984) 201, doi 10.1016/0045-7825(84)90062-8): deviator of the
+ * Cauchy stress G J^(-5/3) dev(F F^T), from U = G/2 (J^(-2/3) tr F F^T - 3);
+ * with the pressure -K ln J of the bulk modulus U has the volumetric part K (J
+ * ln J - J + 1). Path-independent: needs the deformation gradient, and the old
+ * stress does not count. Stiffens with stretch: `stiffening` bounds the largest
+ * eigenvalue of F F^T by its row sums (Gershgorin).
  */
 class NeoHookean : public ElasticBase
 {

@@ -13,7 +13,8 @@ class EquationOfState;
 class Parameters;
 struct ElasticConstants;
 
-/** Order of symmetric tensors everywhere: xx, yy, zz, xy, yz, xz. */
+/** Order of symmetric tensors everywhere: xx, yy, zz, xy, yz, xz; tensor
+    components, no engineering shears. */
 constexpr int n_symmetric = 6;
 
 /** Bodies hand over at most this many points at a time. */
@@ -21,8 +22,11 @@ constexpr std::size_t max_batch_points = 64;
 
 /**
  * Views of @p n material points, quadrature points or particles alike, as
- * structure of arrays. Tensors are already rotated by the increment of
- * rotation (Jaumann, Hughes-Winget) when a material sees them.
+ * structure of arrays: entry [c][k] is component c at point k. Tensors are
+ * already rotated by the increment of rotation (Jaumann, Hughes-Winget) when a
+ * material sees them, so that a law may forget about frames: it works in the
+ * current one. SI throughout; stresses are positive in tension. The body owns
+ * the arrays.
  */
 struct MaterialBatch
 {
@@ -53,7 +57,7 @@ struct MaterialBatch
   double *stiffening = nullptr;
 };
 
-/** A state variable of a material. */
+/** A state variable of a material: an array per point, or six. */
 struct StateVariable
 {
   /** Of a scalar also the name of an output field: it must be described
@@ -91,22 +95,24 @@ public:
   virtual double density() const = 0;       // rho_0, stress-free [kg/m^3]
   virtual double bulk_modulus() const = 0;  // K at rest [Pa]
   virtual double shear_modulus() const = 0; // G at rest [Pa]
-  /** Uniaxial, slow, at the initial temperature [Pa]; nothing for laws that
-      never yield. */
+  /** Stress at which it first yields, uniaxial, slow, at the initial
+     temperature [Pa]; nothing for laws that never yield. */
   virtual std::optional<double> initial_yield_stress() const
   {
     return std::nullopt;
   }
   /** Dilatational wave speed sqrt((K + 4/3 G)/rho) [m/s]. */
   double sound_speed() const;
-  /** One entry per array, except that a tensor entry stands for six. By
+  /** What the body keeps for each point and hands over as batch.states: one
+      entry per array, except that a tensor entry stands for six. By
       convention "effective plastic strain" and "temperature", where a law has
       them, bear these names. */
   virtual std::vector<StateVariable> state_variables() const = 0;
-  /** Stress and state at the end of the step; at most max_batch_points. */
+  /** Stress and state at the end of the step, for all of @p batch: at most
+      max_batch_points points, none of which sees another. */
   virtual void update(const MaterialBatch &batch) const = 0;
 
-  /** Of laws with a state "temperature"; 0 elsewhere. */
+  // Of laws with a state "temperature"; 0 elsewhere.
   virtual double specific_heat() const { return 0.; } // [J/kg/K]
   virtual double conductivity() const { return 0.; }  // [W/m/K]
 

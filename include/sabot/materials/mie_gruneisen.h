@@ -36,6 +36,7 @@ class MieGruneisen : public EquationOfState
 {
 public:
   explicit MieGruneisen(const MieGruneisenParameters &p) : p(p) {}
+  /** rho_0 c_0^2, which the elastic constants should nearly give, too. */
   double bulk_modulus() const override
   {
     return p.density * p.sound_speed * p.sound_speed;

@@ -8,7 +8,11 @@
 
 namespace sabot
 {
-/** Adiabatic heating, dT = eta sigma_eq d_eps/(rho_0 c_p). */
+/**
+ * Adiabatic heating, dT = eta sigma_eq d_eps/(rho_0 c_p), with the stress at
+ * the end of the step, and thermal expansion p += 3 K alpha (T - T_0), with
+ * which the volume is free of pressure at J = exp(3 alpha (T - T_0)).
+ */
 struct ThermalParameters
 {
   double initial_temperature = 294.; // [K]
@@ -17,6 +21,8 @@ struct ThermalParameters
   double conductivity = 0.;          // [W/m/K], for bodies that conduct
   double expansion = 0.;             // linear, [1/K]; p += 3 K alpha (T - T_0)
 
+  /** The entries of the present subsection; @p initial_temperature is the
+      default of that, with its unit. */
   static void declare_parameters(Parameters &prm,
                                  const std::string &initial_temperature);
   /** @p path of the law; refuses expansion beside an equation of state that
@@ -28,7 +34,17 @@ struct ThermalParameters
 /**
  * J2 plasticity with a flow stress that depends on strain, rate, temperature
  * and pressure, the latter two as of the start of the step. Implicit in strain
- * and rate: safeguarded Newton on the yielding points.
+ * and rate: with the trial q = sqrt(3/2 s:s + extra_square), the increment d of
+ * the effective plastic strain is the root of
+ *
+ *   q - 3 G d - sigma_y(eps + d, d/dt) = 0
+ *
+ * by safeguarded Newton on the yielding points; then s is scaled by
+ * theta = 1 - 3 G d/q. States: "effective plastic strain", "temperature".
+ *
+ * A new law of this kind is a Flow, its entries and a registration, as in
+ * source/materials/zerilli_armstrong.cc. The template is instantiated there,
+ * with the Flow inlined into the loop over points.
  *
  * A Flow has
  *   Point at(T, p, J)             what stays fixed during the return,
@@ -48,14 +64,18 @@ public:
       : ElasticBase(elastic, eos), flow(flow), thermal(thermal)
   {
   }
+  // Of the state "temperature".
   double specific_heat() const override { return thermal.specific_heat; }
   double conductivity() const override { return thermal.conductivity; }
+  /** The flow stress at strain and rate 0, at the initial temperature. */
   std::optional<double> initial_yield_stress() const override
   {
     double slope;
     return flow.stress(flow.at(thermal.initial_temperature, 0., 1.), 0., 0., 1.,
                        slope);
   }
+  /** With a shear modulus that follows the pressure, or an equation of state
+      that does. */
   bool stiffens() const override
   {
     return !Flow::constant_shear_modulus || eos->stiffens();
@@ -76,7 +96,9 @@ protected:
   const ThermalParameters thermal;
 
 private:
-  /** @p yield, @p slope: flow stress and its slope at @p eps and rate 0. */
+  /** The root d > 0 for a trial @p q [Pa] above @p yield, to 1e-12 of q or
+      what follows from quadratic convergence; @p yield, @p slope: flow stress
+      and its slope at @p eps and rate 0. */
   double increment(const typename Flow::Point &point, const double q,
                    const double shear_modulus, const double eps,
                    const double dt, const double yield, double slope) const;
@@ -112,6 +134,8 @@ double RateDependentPlasticity<Flow>::increment(
   return d;
 }
 
+// One loop over the points with everything inlined: the trial deviator, the
+// yield condition, and for the few points that yield the return.
 template <typename Flow>
 void RateDependentPlasticity<Flow>::update_deviator(const MaterialBatch &b,
                                                     Scratch &) const
@@ -170,6 +194,7 @@ void RateDependentPlasticity<Flow>::update_deviator(const MaterialBatch &b,
   }
 }
 
+// Thermal expansion, and the stiffening of laws whose shear modulus moves.
 template <typename Flow>
 void RateDependentPlasticity<Flow>::after_pressure(const MaterialBatch &b,
                                                    const Scratch &) const

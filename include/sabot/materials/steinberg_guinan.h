@@ -5,7 +5,11 @@
 
 namespace sabot
 {
-/** Steinberg, Cochran & Guinan 1980. */
+/**
+ * D. J. Steinberg, S. G. Cochran and M. W. Guinan, A constitutive model for
+ * metals applicable at high-strain rate, J. Appl. Phys. 51 (1980) 1498, doi
+ * 10.1063/1.327799. Letters as there.
+ */
 struct SteinbergGuinanParameters
 {
   double yield_stress = 0.;            // Y_0 [Pa]
@@ -21,6 +25,8 @@ struct SteinbergGuinanParameters
 };
 
 /**
+ * The Flow (see RateDependentPlasticity)
+ *
  * G/G_0 = 1 + A p J^(1/3) - B (T - T_ref),
  * Y = min(Y_0 (1 + beta (eps + eps_i))^n, Y_max) G/G_0,
  * T_m = T_m0 exp(2 a (1 - J)) J^(-2 (gamma_0 - a - 1/3)),
@@ -34,10 +40,11 @@ struct SteinbergGuinanFlow
   static constexpr bool constant_shear_modulus = false;
   struct Point
   {
-    double factor; // G/G_0
+    double factor; // G/G_0, of shear modulus and yield stress alike
   };
   SteinbergGuinanParameters p;
 
+  /** T_m [K] at volume ratio @p J. */
   double melt_temperature(const double J) const
   {
     return p.melt_temperature *
@@ -45,6 +52,7 @@ struct SteinbergGuinanFlow
                     2. * (p.gruneisen - p.melt_correction - 1. / 3.) *
                         std::log(J));
   }
+  /** @p temperature [K] and @p pressure [Pa] of the start of the step. */
   Point at(const double temperature, const double pressure,
            const double J) const
   {
@@ -58,6 +66,7 @@ struct SteinbergGuinanFlow
   {
     return point.factor * std::min(p.yield_stress, p.largest_yield_stress);
   }
+  /** Y [Pa]; without slope once Y_max is reached. */
   double stress(const Point &point, const double eps, const double,
                 const double, double &slope) const
   {

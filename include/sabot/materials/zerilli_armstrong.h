@@ -5,7 +5,11 @@
 
 namespace sabot
 {
-/** Zerilli & Armstrong 1987. */
+/**
+ * F. J. Zerilli and R. W. Armstrong, Dislocation-mechanics-based constitutive
+ * relations for material dynamics calculations, J. Appl. Phys. 61 (1987) 1816,
+ * doi 10.1063/1.338024. Letters as there, C0 with the part of the grain size.
+ */
 struct ZerilliArmstrongParameters
 {
   bool is_bcc = false;
@@ -18,11 +22,13 @@ struct ZerilliArmstrongParameters
 };
 
 /**
+ * The Flow (see RateDependentPlasticity) of one lattice:
+ *
  * fcc: sigma = C0 + C2 sqrt(eps) exp(-C3 T + C4 T ln rate),
  * bcc: sigma = C0 + C1 exp(-C3 T + C4 T ln rate) + C5 eps^n,
  *
- * rate in 1/s, not below 1e-12 1/s, where the logarithm would end. The law
- * has no melting; at T >= T_m, a parameter of its own, strength is 0.
+ * T in K, rate in 1/s, not below 1e-12 1/s, where the logarithm would end. The
+ * law has no melting; at T >= T_m, a parameter of its own, strength is 0.
  */
 template <bool bcc>
 struct ZerilliArmstrongFlow
@@ -30,8 +36,10 @@ struct ZerilliArmstrongFlow
   static constexpr bool constant_shear_modulus = true;
   struct Point
   {
-    double athermal, thermal, exponent; // exp(-C3 T) and C4 T
-    double hardening;
+    double athermal;  // C0 [Pa]
+    double thermal;   // C1 or C2 times exp(-C3 T) [Pa]
+    double exponent;  // C4 T: of the rate
+    double hardening; // C5 [Pa]
   };
   ZerilliArmstrongParameters p;
 
@@ -42,6 +50,7 @@ struct ZerilliArmstrongFlow
     return {p.C0, (bcc ? p.C1 : p.C2) * std::exp(-p.C3 * temperature),
             p.C4 * temperature, p.C5};
   }
+  /** C0: neither strain nor rate take anything off. */
   double lower_bound(const Point &point) const { return point.athermal; }
   double stress(const Point &point, const double eps, const double rate,
                 const double dt, double &slope) const
@@ -65,8 +74,10 @@ struct ZerilliArmstrongFlow
   double shear_factor(const Point &) const { return 1.; }
 };
 
+/** Copper, aluminum, nickel: the effect of rate grows with strain. */
 using ZerilliArmstrongFcc =
     RateDependentPlasticity<ZerilliArmstrongFlow<false>>;
+/** Iron, tantalum, tungsten: rate and strain add. */
 using ZerilliArmstrongBcc = RateDependentPlasticity<ZerilliArmstrongFlow<true>>;
 } // namespace sabot
 

@@ -1,7 +1,7 @@
 #ifndef sabot_output_checkpoint_h
 #define sabot_output_checkpoint_h
 
-#include "sabot/base/state_visitor.h"
+#include "sabot/output/state_blocks.h"
 
 #include <mpi.h>
 
@@ -10,60 +10,26 @@
 
 namespace sabot
 {
-/** One array of a saved state. */
-struct StateBlock
-{
-  std::string name; // "body core/position"
-  std::size_t n = 0, size = 0;
-  std::vector<char> bytes; // [n * size]
-};
-
-/** Copies the arrays that it visits. */
-class StateSaver : public StateVisitor
-{
-public:
-  void visit(const std::string &name, void *data, std::size_t n,
-             std::size_t size) override;
-
-  std::string section; // put before each name, with a slash
-  std::vector<StateBlock> blocks;
-};
-
-/** Overwrites the arrays that it visits, in the order in which they were
-    saved. IOError when name or size differ from what was saved. */
-class StateRestorer : public StateVisitor
-{
-public:
-  explicit StateRestorer(std::vector<StateBlock> blocks);
-  void visit(const std::string &name, void *data, std::size_t n,
-             std::size_t size) override;
-  std::size_t n_entries(const std::string &name, std::size_t n) const override;
-  bool is_restoring() const override { return true; }
-
-  std::string section;
-
-private:
-  const StateBlock &next(const std::string &name) const;
-
-  std::vector<StateBlock> blocks;
-  std::size_t position = 0;
-};
-
 /** What a checkpoint says of itself. */
 struct CheckpointHeader
 {
-  std::string version;    // of the program
-  std::string parameters; // the expanded scene
-  int n_ranks = 0;
-  unsigned int step = 0;
-  double time = 0.; // [s]
+  std::string version;    // of the program that wrote it
+  std::string parameters; // the expanded scene, to be compared with the present
+  int n_ranks = 0;        // a run goes on with as many
+  unsigned int step = 0;  // the last one that was done
+  double time = 0.;       // after that step [s]
 };
 
 /**
  * Checkpoints of a run as HDF5: step-<number>.h5 in a folder of their own, each
  * with the arrays of all ranks and an index that holds the length and the
  * SHA-256 of every array; the SHA-256 of the file follows its HDF5 part. Files
- * are written new, flushed to the disk and renamed; the last two are kept.
+ * are written new, flushed to the disk and renamed; the last two are kept, as
+ * the newest may be what a failing disk left.
+ *
+ * Rank 0 writes for all, one array at a time, so that no rank needs memory for
+ * the state of the others. Bits are stored as they are: a resumed run gives the
+ * results of a straight one, on a machine of the same byte order.
  */
 class CheckpointFolder
 {
@@ -71,7 +37,8 @@ public:
   /** @p folder is made when it does not exist. IOError. Collective. */
   CheckpointFolder(const std::string &folder, MPI_Comm communicator);
 
-  /** Remove the checkpoints of an earlier run. Collective. */
+  /** Remove the checkpoints of an earlier run; what cannot be removed stays.
+      Collective, though rank 0 works alone. */
   void clear();
   /** @p name: empty for the next of the series, otherwise the name of a file
       that resume does not take. @return the file's size in bytes. IOError on
@@ -80,13 +47,17 @@ public:
                     const std::vector<StateBlock> &blocks,
                     const std::string &name = "") const;
 
-  /** Files of the series, newest first. */
+  /** Files of the series, newest first; none where there is no folder. Not
+      collective, as the next two. */
   static std::vector<std::string> list(const std::string &folder);
-  /** Read the header and check the whole file. IOError says what is wrong. */
+  /** Read the header and check the whole file against its checksums. IOError
+      says what is wrong: cut short, damaged, another format. */
   static CheckpointHeader verify(const std::string &file);
-  /** Blocks of one rank of a verified file. IOError. */
+  /** Blocks of one rank of a verified file, in the order in which they were
+      saved. IOError. */
   static std::vector<StateBlock> read(const std::string &file, const int rank);
 
+  /** Grows when older programs could not read what is written. */
   static constexpr unsigned int format = 1;
 
 private:

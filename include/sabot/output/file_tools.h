@@ -6,15 +6,20 @@
 
 namespace sabot
 {
-/** Create a folder and those above it; IOError with the system's reason. */
+/** Create a folder and those above it; one that is there already is right.
+    IOError with the system's reason. Not collective, as all of these: one rank
+    calls them and tells the others. */
 void make_folder(const std::string &folder);
 
-/** Call @p write with a temporary name beside @p file, then rename: the file
-    is whole at any moment. IOError when either fails; the temporary is gone. */
+/** Call @p write with a temporary name beside @p file ("file.part"), then
+    rename: whoever reads the file finds the old or the new one, whole, at any
+    moment. IOError when either fails; the temporary is gone, the old file
+    stays. */
 void write_atomically(const std::string &file,
                       const std::function<void(const std::string &)> &write);
 
-/** Write a text file atomically; IOError with the system's reason. */
+/** Write a file with the bytes of @p text, atomically; IOError with the
+    system's reason, for example that the disk is full. */
 void write_text(const std::string &file, const std::string &text);
 } // namespace sabot
 

@@ -5,10 +5,15 @@
 
 namespace sabot
 {
-/** Closes an HDF5 handle of any kind. */
+/**
+ * Closes an HDF5 handle of any kind when it goes out of scope, so that no early
+ * return leaves a file open. Takes the place of the handle in HDF5's calls; a
+ * negative one is what a failed call gave, and is not closed.
+ */
 class Hdf5Handle
 {
 public:
+  /** @p close: what closes this kind, for example H5Dclose. */
   Hdf5Handle(const hid_t id, herr_t (*close)(hid_t)) : id(id), close(close) {}
   ~Hdf5Handle()
   {
@@ -23,7 +28,8 @@ private:
   herr_t (*const close)(hid_t);
 };
 
-/** Silences HDF5's own error print-out while it lives. */
+/** Silences HDF5's own error print-out while it lives: what went wrong the
+    caller says in its own words, with the file's name. */
 class Hdf5Quiet
 {
 public:
@@ -36,8 +42,8 @@ public:
   Hdf5Quiet(const Hdf5Quiet &) = delete;
 
 private:
-  H5E_auto2_t function;
-  void *data;
+  H5E_auto2_t function; // what printed before
+  void *data;           // its argument
 };
 } // namespace sabot
 

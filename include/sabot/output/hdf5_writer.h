@@ -14,13 +14,14 @@ namespace sabot
  * disk at once, what describes them stays in memory until the end. HDF5 keeps a
  * file that a full disk kept it from closing, and crashes on it when the
  * program ends; here it never hears of trouble. After the first error nothing
- * more is written.
+ * more is written, and close() says why. One rank writes one file with it.
  */
 class Hdf5Writer
 {
 public:
   /** Creates @p file, or empties it; @p name: for messages. */
   Hdf5Writer(const std::string &file, const std::string &name);
+  /** Without close() before, the file is of no use. Never throws. */
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer &) = delete;
 
@@ -30,13 +31,18 @@ public:
       the disk. */
   void close();
 
-  // What the driver that HDF5 calls does.
+  // What the driver that HDF5 calls does: addresses and lengths in bytes from
+  // the start of the file. None of them reports trouble to HDF5.
+  /** To the disk at once. */
   void write(const haddr_t address, const void *data, const std::size_t n);
+  /** In memory, until close(). */
   void keep(const haddr_t address, const void *data, const std::size_t n);
+  /** What was written or kept; zeros elsewhere. */
   void read(const haddr_t address, void *data, const std::size_t n) const;
   void resize(const haddr_t new_size) { size = new_size; }
 
 private:
+  /** Let HDF5 hand over what it still has. */
   void close_hdf5();
 
   const std::string name;

@@ -10,31 +10,37 @@
 namespace sabot
 {
 /**
- * Tables of numbers over time: one per body and one for the energy ledger, a
- * row per history step. history.h5 holds one compound dataset per table whose
- * fields are named with units ("velocity z [m/s]"), without time stamps: equal
- * runs give equal bytes. Kept in memory and written whole, new then renamed.
+ * Tables of numbers over time: one per body, one for the energy ledger and one
+ * for the quantities of interest, a row per history step, SI units. history.h5
+ * holds one compound dataset per table whose fields are named with units
+ * ("velocity z [m/s]"), without time stamps: equal runs give equal bytes. Kept
+ * in memory and written whole, new then renamed. Python reads a table with
+ * h5py.File("history.h5")["ledger"]["kinetic [J]"]. Rows are appended on all
+ * ranks alike, so that each can save them.
  */
 class History
 {
 public:
+  /** Columns with their numbers. */
   struct Table
   {
-    std::vector<std::string> columns;
-    std::vector<double> values; // row by row
+    std::vector<std::string> columns; // "name [unit]"
+    std::vector<double> values;       // row by row, [n_rows * n_columns]
     std::size_t n_rows() const
     {
       return columns.empty() ? 0 : values.size() / columns.size();
     }
   };
-  /** Columns are fixed by the first row of a table. */
+  /** Columns are fixed by the first row of a table; std::logic_error for a row
+      of another length. */
   void append(const std::string &table, const Measures &row);
-  /** Write all tables; call on one rank. IOError. */
+  /** Write all tables that have columns; call on one rank. IOError. */
   void write(const std::string &file) const;
-  /** Read tables written before, for a resumed run. IOError. */
+  /** Replace the tables by those of a file that write() has made. IOError
+      where it is missing or damaged. */
   void read(const std::string &file);
 
-  std::map<std::string, Table> tables;
+  std::map<std::string, Table> tables; // by name
 };
 } // namespace sabot
 

@@ -61,7 +61,8 @@ public:
   double period() const { return interval; }
   /** Whether it writes the fields of all bodies. */
   virtual bool writes_fields() const { return false; }
-  /** Whether the run appends rows to the histories when this is due. */
+  /** Whether the run appends rows to the histories when this is due; it does so
+      before the write. */
   virtual bool needs_rows() const { return false; }
 
   /** Called once before the first write. Collective; IOError on all ranks. */

@@ -49,7 +49,9 @@ public:
   void visit_state(StateVisitor &visitor);
 
 private:
+  /** Rows of all tables together. */
   std::size_t n_rows() const;
+  /** The tables: names, columns, numbers. */
   void visit_history(StateVisitor &visitor);
 
   std::unique_ptr<VtuWriter> fields;

@@ -12,17 +12,25 @@
 namespace sabot
 {
 /**
- * Fields for ParaView by VTK: per body and time one compressed .vtu of doubles
- * with shared nodes and true cell data (and a .pvtu over the ranks' pieces), in
- * fields/; sabot.pvd lists all bodies at all times as one scene. All files are
- * written new, then renamed. Symmetric tensors have components XX, YY, ZZ, XY,
- * YZ, XZ. All functions are collective and throw IOError on all ranks.
+ * Fields for ParaView by VTK (XML formats): per body and time one compressed
+ * .vtu of doubles with shared nodes and true cell data (and a .pvtu over the
+ * ranks' pieces), in fields/; sabot.pvd lists all bodies at all times as one
+ * scene. All files are written new, then renamed. Symmetric tensors have
+ * components XX, YY, ZZ, XY, YZ, XZ; points are in current positions [m],
+ * fields in SI units. Particles are vertices.
+ *
+ * All functions are collective and throw IOError on all ranks when one could
+ * not write. A body's name becomes part of file names, blanks, slashes and
+ * quotes as hyphens.
  */
 class VtuWriter
 {
 public:
+  /** Makes FOLDER/fields. */
   VtuWriter(const std::string &folder, MPI_Comm communicator);
 
+  /** Write this rank's piece of a body as frame number @p frame; all ranks
+      have the same fields. Does not show in sabot.pvd before add_time(). */
   void write_body(const std::string &body, const OutputMesh &mesh,
                   const unsigned int frame);
   /** Add a written frame to sabot.pvd. @p time in s. */
@@ -33,13 +41,16 @@ public:
   std::vector<std::pair<double, unsigned int>> frames;
 
 private:
+  /** Name of a rank's .vtu, without folder. */
   std::string piece_name(const std::string &body, const unsigned int frame,
                          const int rank) const;
+  /** IOError on all ranks when @p problem is not empty on one. */
   void agree(const std::string &problem) const;
+  /** The .pvtu that joins the ranks' pieces; by rank 0. */
   void write_collection(const std::string &body, const OutputMesh &mesh,
                         const unsigned int frame) const;
 
-  const std::string folder;
+  const std::string folder; // of the run
   MPI_Comm communicator;
   int rank, n_ranks;
 };

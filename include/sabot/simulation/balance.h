@@ -45,7 +45,7 @@ private:
   Measures ledger;
   double initial_energy = 0., largest_energy = 0.; // [J]
   double last = 0., largest = 0.;
-  std::array<double, 3> initial_momentum{};                // [kg m/s]
+  std::array<double, 3> initial_momentum{}; // [kg m/s]
   double momentum_scale = 0., largest_momentum = 0.;
 };
 } // namespace sabot

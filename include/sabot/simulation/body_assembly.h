@@ -46,8 +46,8 @@ private:
   const ParameterFile &file;
   const Materials &materials;
   std::vector<Carving> carvings;
-  std::map<std::string, NamedMesh> cells;    // made already, by body
-  std::map<std::string, double> cell_size;   // by zone that follows a mesh [m]
+  std::map<std::string, NamedMesh> cells;  // made already, by body
+  std::map<std::string, double> cell_size; // by zone that follows a mesh [m]
 };
 
 /** Refuse bodies that overlap, but for zones and their hosts, and for curved

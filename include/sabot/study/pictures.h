@@ -10,7 +10,8 @@
 
 namespace sabot
 {
-/** What `sabot picture` is asked for; empty: chosen from the run. */
+/** What `sabot picture` is asked for, as the user has written it; empty: chosen
+    from the run (source/charts/section_view.h says how). */
 struct PictureArguments
 {
   std::string folder; // of a run
@@ -24,20 +25,24 @@ struct PictureArguments
   std::string window;   // lengths: right low, high, up low, high
 };
 
-/** For the program that draws: a section through a run (source/charts).
-    InputError where a value has no meaning. */
+/** For the program that draws: a section through a run (source/charts), with
+    absolute paths and SI numbers. InputError, which names the option, where a
+    value has no meaning. */
 nlohmann::ordered_json section_of(const PictureArguments &arguments);
 
 /**
  * Draw charts and sections as PNG by sabot-charts, a process of its own under
  * a display or xvfb-run, as VTK's rendering ends a process without a display.
- * Leaves FOLDER/drawings.json. @return what went wrong, empty when all are
- * drawn.
+ * Leaves FOLDER/drawings.json, what was asked for, and FOLDER/drawings.txt,
+ * what the program said. One that fails does not stop the others. @return what
+ * went wrong, empty when all are drawn.
  */
 std::string draw_pictures(const nlohmann::ordered_json &drawings,
                           const std::string &folder);
 
-/** `sabot picture`: a section through a run. InputError, IOError. */
+/** `sabot picture`: a section through a run, one panel for each time; says the
+    picture's name. InputError where the run has no fields, IOError where
+    nothing could be drawn. Without MPI. */
 ExitCode draw_picture(const PictureArguments &arguments);
 } // namespace sabot
 

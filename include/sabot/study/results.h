@@ -13,16 +13,20 @@
 
 namespace sabot
 {
-/** What one run of a study gave. */
+/** What one run of a study gave. Numbers that it has not are NaN: failed runs
+    stand in the tables beside the others. */
 struct StudyOutcome
 {
-  std::string status = "missing", reason; // as in result.json
-  std::vector<double> quantities;         // per quantity; NaN: none
-  std::vector<std::string> units;
+  /** As in result.json: "completed", "failed", "interrupted"; and why. */
+  std::string status = "missing", reason;
+  std::vector<double> quantities; // per quantity at the end, SI; NaN: none
+  std::vector<std::string> units; // per quantity
+  // [s] of all ranks, [s] by the clock, largest of the run.
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN(),
          wall_seconds = std::numeric_limits<double>::quiet_NaN(),
          energy_residual = std::numeric_limits<double>::quiet_NaN();
-  double steps = 0., items = 0.; // cells and particles
+  double steps = 0.;
+  double items = 0.; // cells and particles of all bodies
   /** Parts of the energy balance at the end, as in result.json. [J] */
   std::vector<std::pair<std::string, double>> energy;
   std::string zone;    // its verdicts in words
@@ -35,29 +39,36 @@ struct StudyOutcome
 };
 
 /** Read result.json and history.h5 of a run's folder; a folder without them
-    gives status "missing". */
+    gives status "missing". The order of @p quantities is that of the outcome's.
+    Never throws for what is missing or damaged. */
 StudyOutcome read_outcome(const std::string &folder,
                           const std::vector<StudyQuantity> &quantities);
 
-/** Against what a quantity's error counts. */
+/** Against what a quantity's error counts; NaN where there is nothing. */
 struct ErrorReference
 {
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::string origin; // "measured (source)", ...
+  std::string origin; // in words: "measured (source)", ...
 };
 
-/** Runs that differ in the spacing only. */
+/** Runs that differ in one parameter only, which is a spacing: at least two. */
 struct ConvergenceSeries
 {
-  std::size_t parameter, quantity;
-  std::string others; // what the other parameters are, in words
-  std::vector<double> spacing, value;
-  Convergence fit;
+  std::size_t parameter, quantity;    // their numbers in the study
+  std::string others;                 // what the other parameters are, in words
+  std::vector<double> spacing, value; // [n_runs], SI
+  Convergence fit;                    // what the values tend to
 };
 
-/** Everything that a report shows. */
+/**
+ * Everything that a report shows: outcomes, and what follows from them for each
+ * quantity, the reference of its errors, convergence, prices, Pareto front.
+ * All found at construction.
+ * What other runs than complete ones gave does not count.
+ */
 struct StudyResults
 {
+  /** @p outcomes: one for each run of @p study, which must outlive this. */
   StudyResults(const StudyFile &study, std::vector<StudyOutcome> outcomes);
 
   const StudyFile &study;
@@ -67,11 +78,13 @@ struct StudyResults
   std::vector<std::vector<Price>> prices;       // per quantity
   std::vector<std::vector<std::size_t>> fronts; // per quantity: runs
 
-  /** Relative to the reference. */
+  /** |value - reference|/|reference|, or without division where the reference
+      is 0. */
   double error(const std::size_t run, const std::size_t quantity) const;
   /** The values of a run's parameters; where one is varied at a time, those
       that set it apart from the base, or "base". */
   std::string label(const std::size_t run) const;
+  /** Of a quantity, as the first run that has it says; empty where none has. */
   std::string unit(const std::size_t quantity) const;
   /** Everything worth drawing, in the report's order. */
   std::vector<Chart> charts() const;
@@ -89,14 +102,18 @@ private:
   void find_prices(const std::size_t quantity);
 };
 
-/** Names of the parts of the energy that are not zero in every run. */
+/** Names of the parts of the energy that are not zero in every run, without the
+    total: columns of the tables. */
 std::vector<std::string> energy_parts(const StudyResults &results);
 
-/** Tables: study.csv and study.h5 (numbers of all runs, and their histories).
-    IOError. */
+/** A row for each run, as RFC 4180 has it: parameters, quantities with errors,
+    costs, energies, verdicts. No value is an empty field. IOError. */
 void write_csv(const StudyResults &results, const std::string &file);
+/** The numbers of that as table "runs", and the histories of the quantities as
+    "history of run <number>". IOError. */
 void write_hdf5(const StudyResults &results, const std::string &file);
-/** One HTML page that needs no other file. IOError. */
+/** One HTML page that needs no other file: tables, @p charts as SVG, pictures
+    within it. IOError. */
 void write_report(const StudyResults &results, const std::vector<Chart> &charts,
                   const std::string &file);
 } // namespace sabot

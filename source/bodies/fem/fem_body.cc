@@ -314,7 +314,7 @@ BodyFacts FemBody::facts() const
   facts.material = material.get();
   facts.is_clamped = !options.clamped_boundary_ids.empty();
   facts.velocity = options.initial_velocity;
-  facts.spacing = options.cell_size;
+  facts.spacing.fill(options.cell_size);
   return facts;
 }
 

@@ -61,15 +61,16 @@ public:
   std::unique_ptr<Body> build(BodyRequest &request) const override
   {
     const Parameters &prm = request.prm;
-    NamedMesh made =
-        request.cells ? std::move(*request.cells) : request.mesh(cell_size(prm));
+    NamedMesh made = request.cells ? std::move(*request.cells)
+                                   : request.mesh(cell_size(prm));
     FemOptions options = FemOptions::parse(prm);
     options.initial_velocity = get_vector(prm, "Initial velocity");
     options.cell_size = request.shape.follows_cell_size()
                             ? cell_size(prm)
                             : typical_cell_size(made.mesh);
-    const auto ids = [&](const char *const entry)
-    { return face_ids(request.path + "/" + entry, prm.get(entry), made.faces); };
+    const auto ids = [&](const char *const entry) {
+      return face_ids(request.path + "/" + entry, prm.get(entry), made.faces);
+    };
     options.clamped_boundary_ids = ids("Clamped faces");
     options.symmetry_boundary_ids = ids("Symmetry faces");
     options.driven_boundary_ids = ids("Driven faces");

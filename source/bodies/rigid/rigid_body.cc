@@ -289,7 +289,7 @@ BodyFacts RigidBody::facts() const
   facts.material = material.get();
   facts.deforms = false;
   facts.velocity = options.initial_velocity;
-  facts.spacing = options.cell_size;
+  facts.spacing.fill(options.cell_size);
   return facts;
 }
 

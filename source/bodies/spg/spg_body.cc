@@ -31,7 +31,8 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                                                             stable,
                                                             constraints,
                                                             work,
-                                                            watch}
+                                                            watch},
+      views(parts, surface, communicator)
 {
   options.failure_criterion->check(points, "Bodies/" + name);
   if (options.conducts_heat && !(points.law().conductivity() > 0.))

@@ -58,8 +58,7 @@ public:
 
   std::unique_ptr<Body> build(BodyRequest &request) const override
   {
-    std::vector<double> spacing =
-        get_quantities(request.prm, "Nodal spacing");
+    std::vector<double> spacing = get_quantities(request.prm, "Nodal spacing");
     const bool has_lattice = !request.cells && request.shape.has_lattice();
     if (spacing.size() == 2 || (spacing.size() == 3 && !has_lattice))
       throw InputError(request.path + "/Nodal spacing",

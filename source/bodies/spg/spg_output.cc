@@ -2,7 +2,6 @@
 // particles as parts of a surface.
 #include "sabot/base/output_fields.h"
 #include "sabot/bodies/body_report.h"
-#include "sabot/bodies/spg/failure/fragments.h"
 #include "sabot/bodies/spg/spg_body.h"
 
 #include <algorithm>
@@ -75,7 +74,7 @@ BodyFacts SpgBody::facts() const
   facts.is_particles = true;
   facts.is_clamped = options.clamped_faces != 0;
   facts.velocity = options.initial_velocity;
-  facts.spacing = *std::min_element(cloud.spacing.begin(), cloud.spacing.end());
+  facts.spacing = cloud.spacing;
   facts.may_fail = options.can_fail();
   facts.failure_strain = options.failure_criterion->critical_plastic_strain();
   return facts;
@@ -98,14 +97,6 @@ std::vector<MaterialSite> SpgBody::material_sites() const
                 failure.failed_fraction(bonds, i)};
   }
   return sites;
-}
-
-std::size_t SpgBody::n_bonds() const
-{
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    n += bonds.n_bonds(i);
-  return n;
 }
 
 namespace
@@ -148,8 +139,7 @@ OutputMesh SpgBody::output_mesh() const
             { return failure.failed_fraction(bonds, i); });
   if (options.can_fail())
   {
-    const std::vector<GlobalIndex> labels =
-        fragment_labels(nodal_state, bonds, node_exchange, communicator);
+    const std::vector<GlobalIndex> labels = views.labels();
     add_field(out, "fragment", n,
               [&](const std::size_t i, const unsigned int)
               { return double(labels[i]); });
@@ -159,14 +149,6 @@ OutputMesh SpgBody::output_mesh() const
   add_field(out, "rank", n,
             [&](std::size_t, unsigned int) { return double(rank); });
   return mesh;
-}
-
-std::vector<Fragment> SpgBody::connected_pieces() const
-{
-  return find_fragments(
-      nodal_state,
-      fragment_labels(nodal_state, bonds, node_exchange, communicator),
-      communicator);
 }
 
 ContactSurface SpgBody::contact_surface() const
@@ -185,35 +167,6 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
                       fields.kernel_reference_volume[i] /
                       fields.reference_volume[i]);
   return probe.flow_stress();
-}
-
-SurfacePoint SpgBody::surface_point(const std::size_t i) const
-{
-  return surface.point(i, deformation_gradient(i), kernel.mean_spacing());
-}
-
-VolumePoint SpgBody::volume_point(const std::size_t i) const
-{
-  return particle_volume(i, fields, approximation, kernel);
-}
-
-DebrisView SpgBody::debris() const
-{
-  DebrisView view;
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (failure.n_failed[i] > 0)
-      view.nodes.push_back(i);
-  view.bulk_modulus = points.law().bulk_modulus();
-  view.spacing = kernel.mean_spacing();
-  return view;
-}
-
-bool SpgBody::are_bonded(const std::size_t i, const GlobalIndex j) const
-{
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    if (nodal_state.global_id[bonds.neighbor[b]] == j)
-      return true;
-  return false;
 }
 
 void SpgBody::visit_bonds(StateVisitor &visitor)

@@ -24,7 +24,8 @@ private:
 
 const Registry<QuantityOfInterest>::Add
     registered({"length", "extent of the body along the direction.",
-                declare_directed_quantity, [](const QuantityRequest &request)
-                { return std::make_unique<Length>(request); }});
+                declare_directed_quantity, [](const QuantityRequest &request) {
+                  return std::make_unique<Length>(request);
+                }});
 } // namespace
 } // namespace sabot

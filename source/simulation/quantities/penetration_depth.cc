@@ -17,8 +17,7 @@ public:
   {
     const BodyMeasures m = along.body.measure();
     const int axis = along.axis();
-    const double tip =
-        along.direction[axis] > 0. ? m.high[axis] : -m.low[axis];
+    const double tip = along.direction[axis] > 0. ? m.high[axis] : -m.low[axis];
     return tip - origin;
   }
   std::string unit() const override { return "m"; }
@@ -40,7 +39,8 @@ const Registry<QuantityOfInterest>::Add
     registered({"penetration depth",
                 "how far the body reaches beyond the origin along the "
                 "direction.",
-                declare, [](const QuantityRequest &request)
-                { return std::make_unique<PenetrationDepth>(request); }});
+                declare, [](const QuantityRequest &request) {
+                  return std::make_unique<PenetrationDepth>(request);
+                }});
 } // namespace
 } // namespace sabot

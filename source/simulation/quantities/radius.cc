@@ -32,7 +32,8 @@ const Registry<QuantityOfInterest>::Add
     registered({"radius",
                 "half extent of the body across the direction, of the whole "
                 "where planes of symmetry cut it.",
-                declare_directed_quantity, [](const QuantityRequest &request)
-                { return std::make_unique<Radius>(request); }});
+                declare_directed_quantity, [](const QuantityRequest &request) {
+                  return std::make_unique<Radius>(request);
+                }});
 } // namespace
 } // namespace sabot

@@ -25,9 +25,9 @@ private:
 };
 
 const Registry<QuantityOfInterest>::Add
-    registered({"velocity",
-                "of the body's centre of mass along the direction.",
-                declare_directed_quantity, [](const QuantityRequest &request)
-                { return std::make_unique<Velocity>(request); }});
+    registered({"velocity", "of the body's centre of mass along the direction.",
+                declare_directed_quantity, [](const QuantityRequest &request) {
+                  return std::make_unique<Velocity>(request);
+                }});
 } // namespace
 } // namespace sabot

@@ -49,6 +49,9 @@ public:
   SurfacePoint point(const std::size_t i, const Mat &F,
                      const double spacing) const;
 
+  /** Where the body is cut. */
+  const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
+
 private:
   /** Axes across which owned particle @p i lies on a plane of symmetry, a bit
       each. */

@@ -14,6 +14,7 @@
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/spg/spg_parts.h"
+#include "sabot/bodies/spg/spg_views.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/particle_cloud.h"
@@ -39,7 +40,7 @@ namespace sabot
  * in spg_step.h. Every particle gathers its own force, neighbours in global
  * order, so results do not depend on the number of ranks.
  */
-class SpgBody : public Body, public ParticleView, public FragmentView
+class SpgBody : public Body
 {
 public:
   SpgBody(const std::string &name, const int id, ParticleCloud cloud,
@@ -68,27 +69,17 @@ public:
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
-    return surface.symmetry_planes;
+    return surface.planes();
   }
   std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
 
   ContactSurface contact_surface() const override;
+  const ParticleView *particles() const override { return &views; }
+  const FragmentView *fragments() const override { return &views; }
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
-  SurfacePoint surface_point(const std::size_t i) const override;
-  VolumePoint volume_point(const std::size_t i) const override;
-  DebrisView debris() const override;
-  bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
-  std::array<double, 3> lattice_spacing() const override
-  {
-    return cloud.spacing;
-  }
-  std::size_t n_bonds() const override;
-  const ParticleView *particles() const override { return this; }
-  const FragmentView *fragments() const override { return this; }
-  std::vector<Fragment> connected_pieces() const override;
 
   std::string item_name() const override { return "particles"; }
   GlobalIndex n_items() const override { return n_global; }
@@ -172,6 +163,7 @@ private:
   std::unique_ptr<ParticleConduction> heat; // only where asked for
   double last_conduction = 0.;              // [s]
   SpgParts parts;                           // of the above
+  SpgViews views;
 };
 } // namespace sabot
 

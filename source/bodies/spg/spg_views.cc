@@ -1,0 +1,60 @@
+// An SPG body as couplings and reports see particles.
+#include "sabot/bodies/spg/spg_views.h"
+
+#include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
+#include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/failure/fragments.h"
+#include "sabot/bodies/spg/particle_fields.h"
+
+namespace sabot
+{
+SurfacePoint SpgViews::surface_point(const std::size_t i) const
+{
+  return surface.point(i, body.fields.deformation_gradient(i),
+                       body.kernel.mean_spacing());
+}
+
+VolumePoint SpgViews::volume_point(const std::size_t i) const
+{
+  return particle_volume(i, body.fields, body.approximation, body.kernel);
+}
+
+DebrisView SpgViews::debris() const
+{
+  DebrisView view;
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    if (body.failure.n_failed[i] > 0)
+      view.nodes.push_back(i);
+  view.bulk_modulus = body.points.law().bulk_modulus();
+  view.spacing = body.kernel.mean_spacing();
+  return view;
+}
+
+bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j) const
+{
+  const BondList &bonds = body.bonds;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    if (body.nodes.global_id[bonds.neighbor[b]] == j)
+      return true;
+  return false;
+}
+
+std::size_t SpgViews::n_bonds() const
+{
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    n += body.bonds.n_bonds(i);
+  return n;
+}
+
+std::vector<GlobalIndex> SpgViews::labels() const
+{
+  return fragment_labels(body.nodes, body.bonds, body.exchange, communicator);
+}
+
+std::vector<Fragment> SpgViews::connected_pieces() const
+{
+  return find_fragments(body.nodes, labels(), communicator);
+}
+} // namespace sabot
