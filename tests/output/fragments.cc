@@ -1,3 +1,4 @@
+// Fragments: which particles still hang together.
 #include "temporary_folder.h"
 
 #include "sabot/base/parameter_file.h"
