@@ -93,16 +93,60 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
                     "1", "irreversible", Check::Kind::at_least});
 }
 
+Mat uniaxial(const double e)
+{
+  Mat A = Mat::identity();
+  A.set(0, 0, std::exp(e));
+  return A;
+}
+
+SpgOptions principal_stress()
+{
+  SpgOptions o = inviscid();
+  o.failure_criterion = choose<FailureCriterion>(
+      "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
+  return o;
+}
+
+/** Both conditions, stress and stretch: the first bonds are those along the
+    stretch. */
+void critical_stretch(std::vector<Check> &checks)
+{
+  SpgOptions o = principal_stress();
+  o.critical_stretch = 1.05;
+  World world;
+  SpgBody &body = add_block(world, o, elastic(0.33));
+  double first = std::nan("");
+  std::size_t wrong = 0;
+  int n = 0;
+  for (double e = 0.; e < 0.07 && std::isnan(first); e += 1e-4)
+  {
+    deform(body, uniaxial(e), 1e-8, ++n);
+    if (measure(body, "bonds broken") > 0.)
+      first = std::exp(e);
+  }
+  // What is left is not longer than the critical stretch.
+  const NodalState &nodes = body.nodes();
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    for (std::size_t b = body.bond_list().begin(i); b < body.bond_list().end(i);
+         ++b)
+    {
+      const std::uint32_t j = body.bond_list().neighbor[b];
+      wrong += norm(nodes.position[j] - nodes.position[i]) >
+               1.05 * norm(nodes.reference_position[j] -
+                           nodes.reference_position[i]);
+    }
+  checks.push_back({"critical stretch 1.05: stretch of first failure", 1.05,
+                    first, 2e-3, "1", "the bond nearest to the axis",
+                    Check::Kind::near});
+  checks.push_back({"critical stretch 1.05: longer bonds left", 0.,
+                    double(wrong), 0., "1", "both conditions are met"});
+}
+
 std::vector<Check> criteria()
 {
   std::vector<Check> checks;
   const double K = aluminum().bulk_modulus(), G = aluminum().shear_modulus();
-  const auto uniaxial = [](const double e)
-  {
-    Mat A = Mat::identity();
-    A.set(0, 0, std::exp(e));
-    return A;
-  };
   const auto isochoric = [](const double e)
   {
     Mat A = Mat::zero();
@@ -127,11 +171,9 @@ std::vector<Check> criteria()
   }
   {
     // Uniaxial strain: sigma_xx = (K + 4 G/3) e.
-    SpgOptions o = inviscid();
-    o.failure_criterion = choose<FailureCriterion>(
-        "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
-    add_criterion(checks, "principal stress 1 GPa", o, elastic(0.33),
-                  1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e", uniaxial);
+    add_criterion(checks, "principal stress 1 GPa", principal_stress(),
+                  elastic(0.33), 1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e",
+                  uniaxial);
   }
   {
     // Simple shear: ln(l1/l3) = 2 asinh(gamma/2).
@@ -141,40 +183,7 @@ std::vector<Check> criteria()
     add_criterion(checks, "shear strain 0.2", o, elastic(0.33),
                   2. * std::sinh(0.1), "2 asinh(gamma/2)", shear);
   }
-  {
-    // Both conditions: the first bonds are those along the stretch.
-    SpgOptions o = inviscid();
-    o.failure_criterion = choose<FailureCriterion>(
-        "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
-    o.critical_stretch = 1.05;
-    World world;
-    SpgBody &body = add_block(world, o, elastic(0.33));
-    double first = std::nan("");
-    std::size_t wrong = 0;
-    int n = 0;
-    for (double e = 0.; e < 0.07 && std::isnan(first); e += 1e-4)
-    {
-      deform(body, uniaxial(e), 1e-8, ++n);
-      if (measure(body, "bonds broken") > 0.)
-        first = std::exp(e);
-    }
-    // What is left is not longer than the critical stretch.
-    const NodalState &nodes = body.nodes();
-    for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      for (std::size_t b = body.bond_list().begin(i);
-           b < body.bond_list().end(i); ++b)
-      {
-        const std::uint32_t j = body.bond_list().neighbor[b];
-        wrong += norm(nodes.position[j] - nodes.position[i]) >
-                 1.05 * norm(nodes.reference_position[j] -
-                             nodes.reference_position[i]);
-      }
-    checks.push_back({"critical stretch 1.05: stretch of first failure", 1.05,
-                      first, 2e-3, "1", "the bond nearest to the axis",
-                      Check::Kind::near});
-    checks.push_back({"critical stretch 1.05: longer bonds left", 0.,
-                      double(wrong), 0., "1", "both conditions are met"});
-  }
+  critical_stretch(checks);
   return checks;
 }
 
