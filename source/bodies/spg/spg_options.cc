@@ -32,7 +32,7 @@ namespace
 {
 void declare_kernel(Parameters &prm)
 {
-  prm.declare_entry("Kernel update interval", "30", integer(1),
+  prm.declare_knob("Kernel update interval", "30", integer(1),
                     "Steps between updates of the Lagrangian kernel.");
   prm.declare_entry("Kernel update strain", "0.02",
                     quantity(Dimension::none, 0., 1.),
@@ -48,7 +48,7 @@ void declare_kernel(Parameters &prm)
 
 void declare_failure(Parameters &prm)
 {
-  prm.declare_entry("Failure check interval", "5", integer(1),
+  prm.declare_knob("Failure check interval", "5", integer(1),
                     "Steps between checks of the bonds; where any fails, the "
                     "kernel is updated at once.");
   Registry<FailureCriterion>::declare_choice(
@@ -78,7 +78,7 @@ void SpgOptions::declare_parameters(Parameters &prm)
   prm.declare_entry("Kernel shape", "spherical", one_of("spherical|tensor"),
                     "Cubic spline of the radius, or product of cubic splines "
                     "along the axes of the kernel.");
-  prm.declare_entry("Normalised support size", "2.0",
+  prm.declare_knob("Normalised support size", "2.0",
                     quantity(Dimension::none, 1.0, 2.8),
                     "Kernel radius (tensor: half width) over nodal spacing. "
                     "Spherical least squares needs 1.8 or more.");
@@ -95,10 +95,10 @@ void SpgOptions::declare_parameters(Parameters &prm)
       "bond; search: between all pairs but those whose bond failed.");
   declare_kernel(prm);
   declare_failure(prm);
-  prm.declare_entry("Linear bulk viscosity", "0.06",
+  prm.declare_knob("Linear bulk viscosity", "0.06",
                     quantity(Dimension::none, 0., 1.),
                     "Coefficient of rho c h |div v| in compression.");
-  prm.declare_entry("Quadratic bulk viscosity", "1.5",
+  prm.declare_knob("Quadratic bulk viscosity", "1.5",
                     quantity(Dimension::none, 0., 10.),
                     "Coefficient of rho h^2 (div v)^2 in compression.");
   prm.declare_entry("Heat conduction", "false", boolean(),
