@@ -14,7 +14,7 @@ void Scene::build_couplings()
     std::unique_ptr<CouplingBuilder> builder;
   };
   std::vector<Listed> listed;
-  for (const std::string &name : names_of("List of couplings"))
+  for (const std::string &name : names_of("couplings"))
   {
     const Entered entered(prm, "Couplings", name);
     const std::string type = prm.get("Type");
