@@ -70,7 +70,7 @@ public:
   std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
   std::vector<std::string> warnings;
-  std::vector<std::string> notes; // for `sabot check`, e.g. mesh quality
+  std::vector<std::string> notes; // old names in the file; what meshes are like
   /** True where nothing holds a body from outside, so that linear momentum
       must be constant. */
   bool is_free = true;
