@@ -1,4 +1,5 @@
 #include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
 #include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
@@ -275,7 +276,7 @@ void shoot(Shots &shots, const bool cubes, const int n, const int seed)
     world.bodies.push_back(
         std::make_unique<SpgBody>("shots", 1, cloud, elastic(), SpgOptions()));
   ContactOptions options;
-  options.friction = 0.2;
+  options.friction = coulomb(0.2);
   add_contact(world, !cubes, options);
   world.distribute();
   NodalState &s = world.bodies[1]->nodes();

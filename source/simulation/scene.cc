@@ -19,11 +19,12 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   assembly.build(names_of("bodies"));
   bodies = std::move(assembly.bodies);
   zones = std::move(assembly.zones);
-  notes = std::move(assembly.notes);
+  notes = file.notes();
+  notes.insert(notes.end(), assembly.notes.begin(), assembly.notes.end());
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
   check_overlaps(*this, file);
-  build_couplings(file);
+  build_couplings();
   build_outputs();
   build_quantities();
 }

@@ -1,5 +1,5 @@
-#include "sabot/materials/mie_gruneisen.h"
 #include "point.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "verification/metals.h"
 
 #include <gtest/gtest.h>

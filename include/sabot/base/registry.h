@@ -48,6 +48,24 @@ void add_registry(RegistryContents (*contents)());
  *     using Make = std::unique_ptr<FrictionLaw>(const Parameters &,
  *                                               const std::string &path);
  *
+ * A whole file of a new choice is thus, with the class and its work in between,
+ *
+ *     // Friction that does not depend on the pressure.
+ *     #include "sabot/base/registry.h"
+ *     #include "sabot/couplings/contact/law.h"
+ *
+ *     namespace sabot
+ *     {
+ *     namespace
+ *     {
+ *     class Constant : public FrictionLaw { ... };
+ *     void declare(Parameters &prm) { prm.declare_entry(...); }
+ *     ... make(const Parameters &prm, const std::string &path) { ... }
+ *     const Registry<FrictionLaw>::Add added({"constant", "...", declare,
+ *                                             make});
+ *     } // namespace
+ *     } // namespace sabot
+ *
  * The files must be linked as objects: a static library would drop what nobody
  * names.
  */
