@@ -67,6 +67,9 @@ def wrong_lines(root):
                     if here == "kernels" and OUTSIDE_KERNELS.match(line):
                         wrong.append(place + ": kernels may only include the "
                                      "standard library and Eigen")
+                    if '#include "verification/' in line:
+                        wrong.append(place + ": verification is a wing that "
+                                     "nothing of the program includes")
                     match = INCLUDE.match(line)
                     if not match:
                         continue

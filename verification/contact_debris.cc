@@ -48,7 +48,8 @@ Collision collide(const double stiffness_scale)
     n.velocity[i] = vec(x > 0. ? 60. : -60., 0., 0.);
   }
   world.stepper.initialize();
-  while (body.fragments()->connected_pieces().size() < 2 && world.stepper.time() < 20e-6)
+  while (body.fragments()->connected_pieces().size() < 2 &&
+         world.stepper.time() < 20e-6)
     world.advance(0.5);
   Collision result;
   result.n_pieces = body.fragments()->connected_pieces().size();

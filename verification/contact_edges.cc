@@ -1,11 +1,8 @@
 #include "sabot/couplings/contact.h"
-#include "sabot/geometry/mesh_extraction.h"
+#include "sabot/couplings/friction/coulomb.h"
+#include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 namespace sabot
 {
@@ -164,20 +161,16 @@ std::vector<Check> deep()
     1 mm are turned by 45 degrees about the axis y or z. */
 HexMesh beam_on_edge(const unsigned int axis, const double x)
 {
-  dealii::Triangulation<3> grid;
   const double half = 1e-3;
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {2, 2, 8}, {-half, -half, -4e-3}, {half, half, 4e-3});
-  dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p)
+  return mapped_block(
+      {{{2, 2, 8}}, {{-half, -half, -4e-3}}, {{half, half, 4e-3}}},
+      [&](const MeshPoint &p)
       {
         const double s = std::sqrt(0.5), a = s * (p[0] - p[1]),
                      b = s * (p[0] + p[1]);
-        return axis == 2 ? dealii::Point<3>(x + a, b, p[2])
-                         : dealii::Point<3>(x - a, p[2], b);
-      },
-      grid);
-  return extract_mesh(grid);
+        return axis == 2 ? MeshPoint{{x + a, b, p[2]}}
+                         : MeshPoint{{x - a, p[2], b}};
+      });
 }
 
 /** Two beams cross, edge on edge, between their nodes: only nodes are held,
@@ -237,8 +230,7 @@ void shoot(Shots &shots, const bool cubes, const int n, const int seed)
       brick({{2. * half_width, 2. * half_width, 2e-3}}, {{0, 0, -1e-3}}, 2e-3),
       {{0, 0, 0}});
   std::vector<Vec> velocity;
-  std::vector<dealii::Point<3>> corners;
-  std::vector<dealii::CellData<3>> cells;
+  std::vector<std::array<MeshPoint, 8>> cells;
   ParticleCloud cloud;
   cloud.spacing = {{0.1 * edge, 0.1 * edge, 0.1 * edge}}; // no bonds
   for (int i = 0; i < n; ++i)
@@ -266,7 +258,7 @@ void shoot(Shots &shots, const bool cubes, const int n, const int seed)
     b -= dot(a, b) * a;
     b *= 1. / norm(b);
     const Vec c = cross(a, b);
-    dealii::CellData<3> cell;
+    std::array<MeshPoint, 8> cell;
     for (int corner = 0; corner < 8; ++corner)
     {
       const Vec x =
@@ -274,22 +266,17 @@ void shoot(Shots &shots, const bool cubes, const int n, const int seed)
           0.5 * edge *
               ((corner & 1 ? 1. : -1.) * a + (corner & 2 ? 1. : -1.) * b +
                (corner & 4 ? 1. : -1.) * c);
-      cell.vertices[corner] = corners.size();
-      corners.emplace_back(x[0], x[1], x[2]);
+      cell[corner] = {{x[0], x[1], x[2]}};
     }
     cells.push_back(cell);
   }
   if (cubes)
-  {
-    dealii::Triangulation<3> grid;
-    grid.create_triangulation(corners, cells, dealii::SubCellData());
-    add_fem(world, extract_mesh(grid), {{0, 0, 0}});
-  }
+    add_fem(world, loose_cells(cells), {{0, 0, 0}});
   else
     world.bodies.push_back(
         std::make_unique<SpgBody>("shots", 1, cloud, elastic(), SpgOptions()));
   ContactOptions options;
-  options.friction = 0.2;
+  options.friction = coulomb(0.2);
   add_contact(world, !cubes, options);
   world.distribute();
   NodalState &s = world.bodies[1]->nodes();

@@ -104,7 +104,7 @@ std::vector<Check> impact()
   ContactOptions contact;
   contact.damping_fraction = 0.;
   // Friction acts at the node and at its projection, a little apart.
-  contact.friction = 0.;
+  contact.friction = nullptr;
   world.couplings.push_back(std::make_unique<Contact>(
       "impact", world.pointers(), std::vector<ContactPair>{{0, 1}, {1, 0}},
       contact, MPI_COMM_WORLD));

@@ -175,10 +175,8 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
 {
   bool self_contact = false, contact = false;
   for (const auto &coupling : scene.couplings)
-  {
-    self_contact = self_contact || coupling->kind() == "self-contact";
-    contact = contact || coupling->kind() == "contact";
-  }
+    for (const auto &[a, b] : coupling->holds_apart())
+      (a == b ? self_contact : contact) = true;
   for (const PlannedBody &body : plan.bodies)
     if (body.facts.is_particles && body.facts.may_fail && !self_contact)
       plan.warnings.push_back("bonds of \"" + body.name +

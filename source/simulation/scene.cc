@@ -24,7 +24,7 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
   check_overlaps(*this, file);
-  build_couplings(file);
+  build_couplings();
   build_outputs();
   build_quantities();
 }

@@ -1,5 +1,6 @@
 // What a scene file may set: every entry with its meaning.
 #include "sabot/bodies/discretization.h"
+#include "sabot/couplings/coupling_builder.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -69,47 +70,8 @@ void declare_body(Parameters &prm, const std::string &discretization,
 
 void declare_coupling(Parameters &prm, const std::string &type)
 {
-  prm.declare_entry("Type", "contact", one_of("tie|contact|self-contact"),
-                    "tie: nodes of one body move with the surface of another; "
-                    "contact: nodes against the faces of FEM bodies and the "
-                    "surfaces of particles, with friction; self-contact: "
-                    "debris of SPG bodies, surfaces of FEM bodies.");
-  if (type == "tie")
-  {
-    prm.declare_entry("Follower", "", any_text(),
-                      "Body whose nodes on the leader's surface are tied.");
-    prm.declare_entry("Leader", "", any_text(), "A FEM body.");
-    prm.declare_entry("Tolerance", "0.05", quantity(Dimension::none, 1e-6, 1.),
-                      "Distance from the surface, in follower spacings, up to "
-                      "which a node is tied.");
-    return;
-  }
-  prm.declare_entry("Bodies", "", names, "Bodies that may touch each other.");
-  prm.declare_entry("Friction coefficient", "0",
-                    quantity(Dimension::none, 0., 2.), "Coulomb friction.");
-  prm.declare_entry("Damping fraction", "0.1",
-                    quantity(Dimension::none, 0., 1.),
-                    "Of critical, while two nodes approach.");
-  prm.declare_entry("Stiffness scale", "1",
-                    quantity(Dimension::none, 1e-3, 10.),
-                    "Penalty stiffness over bulk modulus times spacing.");
-  prm.declare_entry("Dynamic friction coefficient", "-1",
-                    quantity(Dimension::none, -1., 2.),
-                    "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
-                    "mu_d) exp(-decay speed), mu_s the friction coefficient; "
-                    "-1: as at rest.");
-  prm.declare_entry("Friction decay", "0", quantity(Dimension::none, 0.),
-                    "Decay of friction with the speed of sliding, in s/m.");
-  prm.declare_entry("Shear strength", "0",
-                    word_or("yield", quantity(Dimension::pressure, 0.)),
-                    "Friction per area stays below it; yield: the present "
-                    "flow stress of the softer side, where it is touched, over "
-                    "sqrt(3). 0: no limit.");
-  if (type == "self-contact")
-    prm.declare_entry("Contact distance", "0.9",
-                      quantity(Dimension::none, 0.1, 1.),
-                      "Distance over spacing below which debris repels, unless "
-                      "it was met closer.");
+  Registry<CouplingBuilder>::declare_choice(prm, "Type", "contact", "");
+  Registry<CouplingBuilder>::declare_entries(prm, type);
 }
 
 void declare_quantity(Parameters &prm, const std::string &type)
@@ -190,7 +152,10 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
                                            name.size() - name.find(' ') - 2)
                              : read(path + "/Geometry", "box"));
        });
-  each("Couplings", {"<tie>", "<contact>", "<self-contact>"},
+  std::vector<std::string> couplings;
+  for (const auto &type : Registry<CouplingBuilder>::entries())
+    couplings.push_back("<" + type.name + ">");
+  each("Couplings", couplings,
        [&](const std::string &path, const std::string &name)
        {
          declare_coupling(prm, file == nullptr

@@ -78,7 +78,7 @@ public:
 private:
   void read_settings();
   void build_materials(const ParameterFile &file);
-  void build_couplings(const ParameterFile &file);
+  void build_couplings();
   void build_outputs();
   void build_quantities();
   std::vector<std::string> names_of(const std::string &list) const;

@@ -41,6 +41,8 @@ public:
       ParticleCloud::on_face). */
   std::vector<std::size_t> particles_on(const std::uint32_t faces) const;
 
+  /** Where the model is cut, the same on every rank. */
+  const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
   /** All particles: any may come to lie open, so all may touch faces. */
   ContactSurface contact_surface(const double bulk_modulus,
                                  const double spacing) const;
@@ -48,9 +50,6 @@ public:
       areas with det F over the length of F^T n. */
   SurfacePoint point(const std::size_t i, const Mat &F,
                      const double spacing) const;
-
-  /** Where the body is cut. */
-  const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
 
 private:
   /** Axes across which owned particle @p i lies on a plane of symmetry, a bit

@@ -51,6 +51,7 @@ public:
       the start [m]; mean_spacing() in a regular lattice. */
   double local_spacing(const std::size_t i) const;
   double mean_spacing() const { return mean; }
+  const std::array<double, 3> &axis_spacing() const { return spacing; }
   double support() const { return normalized_support; } // radius over spacing
 
 private:
