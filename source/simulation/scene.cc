@@ -171,7 +171,7 @@ std::vector<std::pair<std::string, std::string>> Scene::knobs() const
   {
     const std::size_t slash = knob.first.find('/');
     bool is_listed = slash == std::string::npos;
-    for (const std::string list : {"bodies", "couplings", "outputs"})
+    for (const std::string list : {"bodies", "couplings"})
       for (const std::string &name : names_of(list))
         is_listed = is_listed || knob.first.compare(slash + 1, name.size() + 1,
                                                     name + "/") == 0;

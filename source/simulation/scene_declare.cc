@@ -48,8 +48,8 @@ void declare_top(Parameters &prm)
 void declare_body(Parameters &prm, const std::string &discretization,
                   const std::string &geometry)
 {
-  Registry<Discretization>::declare_choice(prm, "Discretization",
-                                          standard_discretization, "");
+  Registry<Discretization>::declare_knob(prm, "Discretization",
+                                         standard_discretization, "");
   Registry<Shape>::declare_choice(
       prm, "Geometry", "box",
       "Shape of the body, with the same entries for FEM, SPG and rigid "
@@ -81,13 +81,13 @@ std::vector<std::string> present_names(const ParameterFile &file,
   list[8] = std::tolower(list[8]);
   for (const std::string &name : split_names(file.value(list, "")))
     if (std::find(present.begin(), present.end(), name) == present.end())
-      throw InputError(list, "\"" + name + "\" is listed, but there is no \"" +
-                                 section + "/" + name + "\"" +
-                                 (present.empty()
-                                      ? std::string()
-                                      : "; did you mean \"" +
-                                            nearest_name(name, present) +
-                                            "\"?"));
+      throw InputError(list,
+                       "\"" + name + "\" is listed, but there is no \"" +
+                           section + "/" + name + "\"" +
+                           (present.empty()
+                                ? std::string()
+                                : "; did you mean \"" +
+                                      nearest_name(name, present) + "\"?"));
   return present;
 }
 
@@ -111,20 +111,20 @@ void declare_section(Parameters &prm, const ParameterFile *file,
 }
 
 /** Of things whose entry "Type" chooses among the products of a registry. */
-template <typename Product>
+template <typename Product, bool is_knob>
 void declare_products(Parameters &prm, const ParameterFile *file,
                       const std::string &section, const std::string &standard)
 {
-  declare_section(prm, file, section, {"<name>"},
-                  [&](const std::string &path, const std::string &)
-                  {
-                    Registry<Product>::declare_choice(prm, "Type", standard,
-                                                      "");
-                    Registry<Product>::declare_entries(
-                        prm, file == nullptr
-                                 ? ""
-                                 : file->value(path + "/Type", standard));
-                  });
+  declare_section(
+      prm, file, section, {"<name>"},
+      [&](const std::string &path, const std::string &)
+      {
+        Registry<Product>::declare_choice(prm, "Type", standard, "");
+        if constexpr (is_knob)
+          prm.mark_as_knob("Type");
+        Registry<Product>::declare_entries(
+            prm, file == nullptr ? "" : file->value(path + "/Type", standard));
+      });
 }
 
 void declare_materials(Parameters &prm, const ParameterFile *file)
@@ -164,7 +164,8 @@ void declare_bodies(Parameters &prm, const ParameterFile *file)
       {
         if (file != nullptr)
           return declare_body(
-              prm, file->value(path + "/Discretization", standard_discretization),
+              prm,
+              file->value(path + "/Discretization", standard_discretization),
               file->value(path + "/Geometry", "box"));
         const auto &kind =
             kinds[std::find(names.begin(), names.end(), name) - names.begin()];
@@ -178,14 +179,15 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
   declare_top(prm);
   declare_materials(prm, file);
   declare_bodies(prm, file);
-  declare_products<CouplingBuilder>(prm, file, "Couplings", "contact");
-  declare_section(prm, file, "Outputs", {"<name>"},
-                  [&](const std::string &path, const std::string &)
-                  {
-                    Output::declare_parameters(
-                        prm, file == nullptr ? ""
-                                             : file->value(path + "/Type", "VTU"));
-                  });
-  declare_products<QuantityOfInterest>(prm, file, "Quantities", "velocity");
+  declare_products<CouplingBuilder, true>(prm, file, "Couplings", "contact");
+  declare_section(
+      prm, file, "Outputs", {"<name>"},
+      [&](const std::string &path, const std::string &)
+      {
+        Output::declare_parameters(
+            prm, file == nullptr ? "" : file->value(path + "/Type", "VTU"));
+      });
+  declare_products<QuantityOfInterest, false>(prm, file, "Quantities",
+                                              "velocity");
 }
 } // namespace sabot
