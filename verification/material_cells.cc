@@ -1,3 +1,4 @@
+// One cell of every law in uniaxial stress against the integrated law.
 #include "sabot/materials/laws.h"
 #include "verification/driven.h"
 #include "verification/problem.h"

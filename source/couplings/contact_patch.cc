@@ -1,6 +1,7 @@
 // The pressure of a particle on the nodes of fine faces around it.
 #include "sabot/couplings/contact_patch.h"
 
+#include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/patch_weights.h"
 
 #include <algorithm>

@@ -30,7 +30,6 @@ public:
   VolumePoint volume_point(const std::size_t i) const override;
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
-  std::array<double, 3> lattice_spacing() const override;
   std::size_t n_bonds() const override;
   std::vector<Fragment> connected_pieces() const override;
 
