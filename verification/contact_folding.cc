@@ -1,3 +1,4 @@
+// Self-contact of one body of hexahedra: prongs that meet, and what must not.
 #include "sabot/couplings/contact.h"
 #include "verification/meshes.h"
 #include "verification/problem.h"

@@ -1,3 +1,4 @@
+// Laws of contact: rebound, friction and its cap, Hertz, the cost of a search.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/friction/coulomb.h"

@@ -1,3 +1,4 @@
+// Contact of particles with particles: friction, smoothness, stability.
 #include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/particle_contact.h"
 #include "sabot/materials/laws.h"

@@ -1,3 +1,4 @@
+// The perforated plate, coarse, from 1 m/s to 6 km/s.
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/self_contact.h"

@@ -1,3 +1,4 @@
+// One impact in units scaled by 1e+-3 gives the same answer.
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/self_contact.h"

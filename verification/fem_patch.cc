@@ -1,3 +1,4 @@
+// One-point hexahedra: patch test and hourglass modes.
 #include "sabot/materials/laws.h"
 #include "verification/meshes.h"
 #include "verification/problem.h"

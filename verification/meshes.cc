@@ -19,7 +19,8 @@ using Grid = dealii::Triangulation<3>;
 void fill(const Block &block, Grid &grid)
 {
   dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {block.n_cells.begin(), block.n_cells.end()},
+      grid,
+      std::vector<unsigned int>(block.n_cells.begin(), block.n_cells.end()),
       dealii::Point<3>(block.low[0], block.low[1], block.low[2]),
       dealii::Point<3>(block.high[0], block.high[1], block.high[2]));
 }

@@ -1,3 +1,4 @@
+// Rigid bodies: a free top, an impact on a block, a prescribed pusher.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/geometry/round_bodies.h"

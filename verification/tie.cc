@@ -1,3 +1,4 @@
+// Ties of cells and particles: linear fields, waves across, nested pipes.
 #include "sabot/couplings/tie.h"
 #include "verification/meshes.h"
 #include "verification/problem.h"

@@ -1,3 +1,4 @@
+// Contact, self-contact and ties on few nodes.
 #include "verification/world.h"
 
 #include "sabot/couplings/contact.h"

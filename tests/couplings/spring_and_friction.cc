@@ -148,8 +148,7 @@ const Registry<FrictionLaw>::Add constant(
        prm.declare_entry("Friction stress", "0 Pa",
                          quantity(Dimension::pressure, 0.), "Of sliding.");
      },
-     [](const Parameters &prm, const std::string &)
-     {
+     [](const Parameters &prm, const std::string &) {
        return std::make_unique<Constant>(get_quantity(prm, "Friction stress"));
      }});
 
@@ -168,7 +167,8 @@ parse(const std::vector<std::pair<std::string, std::string>> &entries)
 
 double friction_of(const ContactOptions &options)
 {
-  return norm(answer(point_at(1e-6, vec(2., 0., 0.)), options).friction_force());
+  return norm(
+      answer(point_at(1e-6, vec(2., 0., 0.)), options).friction_force());
 }
 
 TEST(Friction, a_law_is_chosen_by_name_and_brings_its_entries)
@@ -178,11 +178,10 @@ TEST(Friction, a_law_is_chosen_by_name_and_brings_its_entries)
   EXPECT_DOUBLE_EQ(friction_of(parse({{"Friction law", "Constant of the test"},
                                       {"Friction stress", "0.1 MPa"}})),
                    0.1);
-  EXPECT_DOUBLE_EQ(
-      friction_of(parse({{"Friction coefficient", "0.3"},
-                         {"Dynamic friction coefficient", "0.1"},
-                         {"Friction decay", "0.5"}})),
-      0.1 + 0.2 * std::exp(-1.));
+  EXPECT_DOUBLE_EQ(friction_of(parse({{"Friction coefficient", "0.3"},
+                                      {"Dynamic friction coefficient", "0.1"},
+                                      {"Friction decay", "0.5"}})),
+                   0.1 + 0.2 * std::exp(-1.));
 }
 
 TEST(Friction, words_and_the_numbers_that_they_stand_for)
@@ -217,7 +216,8 @@ TEST(Couplings, types_are_built_before_those_that_must_know_of_them)
   { return Registry<CouplingBuilder>::get("Type", type).make()->order(); };
   EXPECT_LT(order("tie"), order("contact"));
   EXPECT_LT(order("contact"), order("self-contact"));
-  EXPECT_TRUE(Registry<CouplingBuilder>::get("Type", "tie").make()->acts_last());
+  EXPECT_TRUE(
+      Registry<CouplingBuilder>::get("Type", "tie").make()->acts_last());
   EXPECT_THROW(Registry<CouplingBuilder>::get("Type", "glue"), InputError);
 }
 } // namespace

@@ -1,3 +1,4 @@
+// Meshes: volumes, boundaries, growth, import.
 #include "sabot/base/error.h"
 #include "sabot/geometry/carving.h"
 #include "sabot/geometry/mesh_generator.h"

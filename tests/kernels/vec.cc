@@ -1,3 +1,4 @@
+// Vectors, tensors, packs and kernel functions.
 #include "sabot/kernels/vec.h"
 #include "sabot/kernels/closest_point.h"
 #include "sabot/kernels/eigen.h"

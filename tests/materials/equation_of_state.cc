@@ -1,3 +1,4 @@
+// Mie-Gruneisen pressure against Rankine-Hugoniot and the isentrope.
 #include "point.h"
 #include "sabot/materials/mie_gruneisen.h"
 #include "verification/metals.h"

@@ -102,6 +102,8 @@ public:
       these with the values in force. */
   void declare_knob(const std::string &name, const std::string &standard,
                     const Pattern &pattern, const std::string &meaning);
+  /** Makes a declared entry of the present subsection a knob. */
+  void mark_as_knob(const std::string &name);
   /** Path and value of all knobs, in the order of their declaration. */
   std::vector<std::pair<std::string, std::string>> knobs();
   /** Go down into the subsection @p name of the present one, which comes into

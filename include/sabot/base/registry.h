@@ -148,6 +148,14 @@ public:
     prm.declare_entry(name, standard, one_of(words), meaning);
   }
 
+  /** The same for a choice that trades speed for accuracy (declare_knob()). */
+  static void declare_knob(Parameters &prm, const std::string &name,
+                           const std::string &standard, const std::string &lead)
+  {
+    declare_choice(prm, name, standard, lead);
+    prm.mark_as_knob(name);
+  }
+
   /** Declares what the choice @p name brings with it; of a name that is not
       registered all choices' entries, as the manual shows them. */
   static void declare_entries(Parameters &prm, const std::string &name)

@@ -19,12 +19,12 @@ std::optional<double> reachable(const std::optional<double> limit)
 
 void FemOptions::declare_parameters(Parameters &prm)
 {
-  Registry<Hexahedra>::declare_choice(prm, "Integration", "one point",
-                                      "Points of a cell.");
-  Registry<OnePoint>::declare_choice(prm, "Hourglass control", "viscous",
-                                     "Of cells with one point.");
-  prm.declare_entry("Hourglass coefficient", "0.1",
-                    quantity(Dimension::none, 0., 1.), "Usually 0.03 to 0.15.");
+  Registry<Hexahedra>::declare_knob(prm, "Integration", "one point",
+                                    "Points of a cell.");
+  Registry<OnePoint>::declare_knob(prm, "Hourglass control", "viscous",
+                                   "Of cells with one point.");
+  prm.declare_knob("Hourglass coefficient", "0.1",
+                   quantity(Dimension::none, 0., 1.), "Usually 0.03 to 0.15.");
   prm.declare_entry("Heat conduction", "false", boolean(),
                     "Implicit conduction inside the body, faces insulated. "
                     "Needs a law with temperature and conductivity.");
@@ -36,28 +36,28 @@ void FemOptions::declare_parameters(Parameters &prm)
       "Rate of the stress: with the spin of the velocity gradient, or with "
       "that of the rotation R of F = R U, which does not oscillate in large "
       "elastic shear.");
-  prm.declare_entry("Linear bulk viscosity", "0.06",
-                    quantity(Dimension::none, 0., 1.),
-                    "Coefficient of rho c h |div v| in compression.");
-  prm.declare_entry("Quadratic bulk viscosity", "1.5",
-                    quantity(Dimension::none, 0., 10.),
-                    "Coefficient of rho h^2 (div v)^2 in compression.");
-  prm.declare_entry("Erosion plastic strain", "never",
-                    word_or("never", quantity(Dimension::none, 0.)),
-                    "A cell is eroded when its effective plastic strain "
-                    "exceeds this.");
-  prm.declare_entry("Erosion damage", "never",
-                    word_or("never", quantity(Dimension::none, 0.)),
-                    "A cell is eroded when the material's damage reaches this "
-                    "(1: fully damaged).");
-  prm.declare_entry("Erosion step", "never",
-                    word_or("never", quantity(Dimension::time, 0., 1.)),
-                    "A cell is eroded when its own stable step falls below "
-                    "this.");
-  prm.declare_entry("Inversion", "stop", one_of("stop|erode|shrink step"),
-                    "What to do when a cell is about to turn inside out: stop "
-                    "the run, erode the cell, or (shrink step) let no step "
-                    "take more than a quarter of a cell's volume.");
+  prm.declare_knob("Linear bulk viscosity", "0.06",
+                   quantity(Dimension::none, 0., 1.),
+                   "Coefficient of rho c h |div v| in compression.");
+  prm.declare_knob("Quadratic bulk viscosity", "1.5",
+                   quantity(Dimension::none, 0., 10.),
+                   "Coefficient of rho h^2 (div v)^2 in compression.");
+  prm.declare_knob("Erosion plastic strain", "never",
+                   word_or("never", quantity(Dimension::none, 0.)),
+                   "A cell is eroded when its effective plastic strain "
+                   "exceeds this.");
+  prm.declare_knob("Erosion damage", "never",
+                   word_or("never", quantity(Dimension::none, 0.)),
+                   "A cell is eroded when the material's damage reaches this "
+                   "(1: fully damaged).");
+  prm.declare_knob("Erosion step", "never",
+                   word_or("never", quantity(Dimension::time, 0., 1.)),
+                   "A cell is eroded when its own stable step falls below "
+                   "this.");
+  prm.declare_knob("Inversion", "stop", one_of("stop|erode|shrink step"),
+                   "What to do when a cell is about to turn inside out: stop "
+                   "the run, erode the cell, or (shrink step) let no step "
+                   "take more than a quarter of a cell's volume.");
 }
 
 FemOptions FemOptions::parse(const Parameters &prm)

@@ -33,11 +33,11 @@ public:
   void declare(Parameters &prm, const Shape *const shape) const override
   {
     const std::string faces = face_names(shape);
-    prm.declare_entry("Symmetry faces", "", name_list(),
+    prm.declare_knob("Symmetry faces", "", name_list(),
                       "Plane faces on which the model is cut: no velocity "
                       "across them, no contact with them. Among " +
                           faces + ".");
-    prm.declare_entry("Nodal spacing", "1 mm",
+    prm.declare_knob("Nodal spacing", "1 mm",
                       quantities(Dimension::length, 1, 3, 1e-9, 1e2),
                       "Distance of neighbouring particles; of a box the "
                       "nearest value that divides each edge, one for all or "
