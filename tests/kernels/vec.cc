@@ -3,6 +3,7 @@
 #include "sabot/kernels/closest_point.h"
 #include "sabot/kernels/eigen.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/principal.h"
 #include "sabot/kernels/stress_update.h"
 
 #include <Eigen/Dense>

@@ -1,7 +1,6 @@
 #ifndef sabot_kernels_kernel_function_h
 #define sabot_kernels_kernel_function_h
 
-#include "sabot/kernels/principal.h"
 #include "sabot/kernels/vec.h"
 
 #include <cmath>
