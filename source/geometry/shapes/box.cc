@@ -16,18 +16,18 @@ public:
   static void declare(Parameters &prm)
   {
     prm.declare_knob("Size", "1 mm, 1 mm, 1 mm",
-                      quantities(Dimension::length, 3, 3, 1e-9, 1e3),
-                      "Edge lengths of the box.");
+                     quantities(Dimension::length, 3, 3, 1e-9, 1e3),
+                     "Edge lengths of the box.");
   }
 
   void declare_grading(Parameters &prm) const override
   {
     prm.declare_knob("Coarsest cell size", "none",
-                      word_or("none", quantity(Dimension::length, 1e-9, 1e3)),
-                      "Where a zone is carved from the body or refined, "
-                      "cells grow away from it up to this size.");
+                     word_or("none", quantity(Dimension::length, 1e-9, 1e3)),
+                     "Where a zone is carved from the body or refined, "
+                     "cells grow away from it up to this size.");
     prm.declare_knob("Growth ratio", "1.15", quantity(Dimension::none, 1., 3.),
-                      "Size of one cell over the last, away from the zone.");
+                     "Size of one cell over the last, away from the zone.");
     prm.declare_knob(
         "Refined zone size", "none",
         word_or("none", quantities(Dimension::length, 3, 3, 0., 1e3)),

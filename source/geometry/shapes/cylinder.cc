@@ -17,21 +17,20 @@ public:
     prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
     prm.declare_entry("Axis", "z", one_of("x|y|z"),
                       "Direction of the cylinder's axis.");
-    prm.declare_knob(
-        "Core radius", "automatic",
-        word_or("automatic", quantity(Dimension::length, 0., 1e3)),
-        "Radius of the middle part that has cells of the cell "
-        "size; automatic: 0.55 of the radius.");
+    prm.declare_knob("Core radius", "automatic",
+                     word_or("automatic", quantity(Dimension::length, 0., 1e3)),
+                     "Radius of the middle part that has cells of the cell "
+                     "size; automatic: 0.55 of the radius.");
     prm.declare_knob("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
-                      "Thickness of one ring of cells over the last, "
-                      "outwards.");
+                     "Thickness of one ring of cells over the last, "
+                     "outwards.");
     prm.declare_knob("Coarsest cell size", "none", word_or("none", length),
-                      "Rings grow up to this thickness.");
+                     "Rings grow up to this thickness.");
     prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
-                      "Part of the cylinder that is modelled: half keeps the "
-                      "positive side of the axis that follows the cylinder's "
-                      "(x after z), quarter that of the other one, too. The "
-                      "cut planes are called as a box's faces, e.g. -x, -y.");
+                     "Part of the cylinder that is modelled: half keeps the "
+                     "positive side of the axis that follows the cylinder's "
+                     "(x after z), quarter that of the other one, too. The "
+                     "cut planes are called as a box's faces, e.g. -x, -y.");
   }
 
   std::string face_names() const override

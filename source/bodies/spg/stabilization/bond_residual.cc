@@ -284,9 +284,9 @@ const Registry<Stabilization>::Add registered(
      [](Parameters &prm)
      {
        prm.declare_knob("Stabilisation coefficient", "4",
-                         quantity(Dimension::none, 0., 20.),
-                         "Stiffness of the bond residual in shear moduli; 3 to "
-                         "5 give the same answers.");
+                        quantity(Dimension::none, 0., 20.),
+                        "Stiffness of the bond residual in shear moduli; 3 to "
+                        "5 give the same answers.");
      },
      [](const Parameters &prm, const std::string &)
      {
