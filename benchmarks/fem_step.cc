@@ -1,8 +1,7 @@
 // CPU time of the force loop of a FEM block, per cell-step:
 // build/release/benchmark_fem_step; see doc/performance.md
+#include "sabot/base/mpi_session.h"
 #include "verification/world.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <benchmark/benchmark.h>
 
@@ -92,7 +91,7 @@ BENCHMARK(johnson_cook_b_bar)->Arg(22);
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const sabot::MpiSession mpi(argc, argv);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

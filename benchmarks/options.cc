@@ -1,9 +1,8 @@
 // What each option costs: CPU time of the force loop of a plastic block per
 // item with the option on and off; build/release/benchmark_options
 #include "sabot/base/choice.h"
+#include "sabot/base/mpi_session.h"
 #include "verification/world.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <benchmark/benchmark.h>
 
@@ -178,7 +177,7 @@ void add_particles(const Law &law)
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const sabot::MpiSession mpi(argc, argv);
   add_laws();
   add_cells(metal("al6061-t6"));
   add_particles(metal("al6061-t6"));

@@ -1,9 +1,8 @@
 // CPU time of the force loop of an SPG block, per particle-step.
 // spg_step --benchmark_filter=... ; see doc/performance.md
 #include "sabot/base/choice.h"
+#include "sabot/base/mpi_session.h"
 #include "verification/world.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <benchmark/benchmark.h>
 
@@ -89,7 +88,7 @@ BENCHMARK(convex_second_gradient)->Arg(22);
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const sabot::MpiSession mpi(argc, argv);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -1,4 +1,5 @@
 // The program: its command line, and what each command calls.
+#include "sabot/base/mpi_session.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/reference/reference.h"
@@ -11,7 +12,7 @@
 #include "sabot/study/study.h"
 #include "sabot/study/study_file.h"
 
-#include <deal.II/base/mpi.h>
+#include <mpi.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -48,7 +49,9 @@ struct Action
 
 bool is_first_rank()
 {
-  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank == 0;
 }
 
 /** "file:line: message" of bad input. */
@@ -399,6 +402,6 @@ int main(int argc, char **argv)
 
   // What exceeds a limit on files is an error of the write, as a full disk is.
   std::signal(SIGXFSZ, SIG_IGN);
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const MpiSession mpi(argc, argv);
   return report_errors(is_first_rank(), act);
 }

@@ -1,11 +1,11 @@
 // Starts MPI once for all tests of an executable.
-#include <gtest/gtest.h>
+#include "sabot/base/mpi_session.h"
 
-#include <deal.II/base/mpi.h>
+#include <gtest/gtest.h>
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const sabot::MpiSession mpi(argc, argv);
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -1,3 +1,4 @@
+// One-dimensional waves in bars of hexahedra: elastic, meeting, bilinear.
 #include "sabot/couplings/contact.h"
 #include "sabot/materials/laws.h"
 #include "verification/driven.h"

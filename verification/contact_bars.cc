@@ -1,3 +1,5 @@
+// Contact of bars of cells and of particles: the impact of St-Venant, and edges
+// that are aligned.
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/particle_contact.h"
 #include "verification/problem.h"

@@ -1,3 +1,4 @@
+// Blocks of particles that have lost their bonds and fall on each other.
 #include "sabot/couplings/particle_contact.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/kernels/kernel_function.h"

@@ -1,3 +1,4 @@
+// Two pieces of a broken bar collide through self-contact.
 #include "sabot/couplings/self_contact.h"
 #include "verification/problem.h"
 #include "verification/world.h"

@@ -1,11 +1,9 @@
+// Contact where no node meets a face: crossed edges, thin plates, oblique shots
 #include "sabot/couplings/contact.h"
-#include "sabot/geometry/mesh_extraction.h"
+#include "sabot/couplings/friction/coulomb.h"
+#include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 namespace sabot
 {
@@ -164,20 +162,16 @@ std::vector<Check> deep()
     1 mm are turned by 45 degrees about the axis y or z. */
 HexMesh beam_on_edge(const unsigned int axis, const double x)
 {
-  dealii::Triangulation<3> grid;
   const double half = 1e-3;
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {2, 2, 8}, {-half, -half, -4e-3}, {half, half, 4e-3});
-  dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p)
+  return mapped_block(
+      {{{2, 2, 8}}, {{-half, -half, -4e-3}}, {{half, half, 4e-3}}},
+      [&](const MeshPoint &p)
       {
         const double s = std::sqrt(0.5), a = s * (p[0] - p[1]),
                      b = s * (p[0] + p[1]);
-        return axis == 2 ? dealii::Point<3>(x + a, b, p[2])
-                         : dealii::Point<3>(x - a, p[2], b);
-      },
-      grid);
-  return extract_mesh(grid);
+        return axis == 2 ? MeshPoint{{x + a, b, p[2]}}
+                         : MeshPoint{{x - a, p[2], b}};
+      });
 }
 
 /** Two beams cross, edge on edge, between their nodes: only nodes are held,
@@ -223,24 +217,48 @@ struct Shots
   double given = 0.;                 // by the contact, largest
 };
 
-void shoot(Shots &shots, const bool cubes, const int n, const int seed)
+constexpr double shot_edge = 1e-3, half_plate = 20e-3; // [m]
+
+/** What is shot at the plate: where its points start, one shot after the
+    other, and the velocity of each shot. */
+struct Volley
 {
-  constexpr double edge = 1e-3, half_width = 20e-3;
-  // Cells that tumble faster gain energy by themselves at this step.
-  const double speed = cubes ? 100. : 300.;
+  std::vector<MeshPoint> points;
+  std::vector<Vec> velocity;
+};
+
+/** The corners of a cube turned at random, in lexicographic order. */
+template <typename Random>
+std::array<MeshPoint, 8> turned_cube(const Vec middle, Random &&random)
+{
+  Vec a = random(), b = random();
+  a *= 1. / norm(a);
+  b -= dot(a, b) * a;
+  b *= 1. / norm(b);
+  const Vec c = cross(a, b);
+  std::array<MeshPoint, 8> cell;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec x = middle + 0.5 * shot_edge *
+                               ((corner & 1 ? 1. : -1.) * a +
+                                (corner & 2 ? 1. : -1.) * b +
+                                (corner & 4 ? 1. : -1.) * c);
+    cell[corner] = {{x[0], x[1], x[2]}};
+  }
+  return cell;
+}
+
+/** Adds @p n cubes or particles as the second body of @p world. */
+Volley add_shots(World &world, const bool cubes, const int n, const int seed,
+                 const double speed)
+{
   std::mt19937 generator(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(-1., 1.);
-  World world;
-  add_fem(
-      world,
-      brick({{2. * half_width, 2. * half_width, 2e-3}}, {{0, 0, -1e-3}}, 2e-3),
-      {{0, 0, 0}});
-  std::vector<Vec> velocity;
-  std::vector<dealii::Point<3>> corners;
-  std::vector<dealii::CellData<3>> cells;
+  Volley volley;
+  std::vector<std::array<MeshPoint, 8>> cells;
   ParticleCloud cloud;
-  cloud.spacing = {{0.1 * edge, 0.1 * edge, 0.1 * edge}}; // no bonds
+  cloud.spacing.fill(0.1 * shot_edge); // no bonds
   for (int i = 0; i < n; ++i)
   {
     // Up to 80 degrees from the normal.
@@ -249,74 +267,98 @@ void shoot(Shots &shots, const bool cubes, const int n, const int seed)
                  turn = M_PI * uniform(generator);
     const Vec direction =
         vec(sine * std::cos(turn), sine * std::sin(turn), -cosine);
-    velocity.push_back(speed * direction);
+    volley.velocity.push_back(speed * direction);
     const Vec aim =
         vec(12e-3 * uniform(generator), 12e-3 * uniform(generator), 0.);
     const Vec start = aim - (1e-3 / cosine) * direction;
-    if (!cubes)
+    if (cubes)
     {
-      cloud.position.push_back({{start[0], start[1], start[2]}});
-      cloud.volume.push_back(edge * edge * edge);
-      cloud.on_face.push_back(0);
+      cells.push_back(turned_cube(
+          start + vec(0., 0., 0.5 * shot_edge),
+          [&] {
+            return vec(normal(generator), normal(generator), normal(generator));
+          }));
+      volley.points.insert(volley.points.end(), cells.back().begin(),
+                           cells.back().end());
       continue;
     }
-    Vec a = vec(normal(generator), normal(generator), normal(generator)),
-        b = vec(normal(generator), normal(generator), normal(generator));
-    a *= 1. / norm(a);
-    b -= dot(a, b) * a;
-    b *= 1. / norm(b);
-    const Vec c = cross(a, b);
-    dealii::CellData<3> cell;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const Vec x =
-          start + vec(0., 0., 0.5 * edge) +
-          0.5 * edge *
-              ((corner & 1 ? 1. : -1.) * a + (corner & 2 ? 1. : -1.) * b +
-               (corner & 4 ? 1. : -1.) * c);
-      cell.vertices[corner] = corners.size();
-      corners.emplace_back(x[0], x[1], x[2]);
-    }
-    cells.push_back(cell);
+    cloud.position.push_back({{start[0], start[1], start[2]}});
+    cloud.volume.push_back(shot_edge * shot_edge * shot_edge);
+    cloud.on_face.push_back(0);
+    volley.points.push_back(cloud.position.back());
   }
   if (cubes)
-  {
-    dealii::Triangulation<3> grid;
-    grid.create_triangulation(corners, cells, dealii::SubCellData());
-    add_fem(world, extract_mesh(grid), {{0, 0, 0}});
-  }
+    add_fem(world, loose_cells(cells), {{0, 0, 0}});
   else
     world.bodies.push_back(
         std::make_unique<SpgBody>("shots", 1, cloud, elastic(), SpgOptions()));
-  ContactOptions options;
-  options.friction = 0.2;
-  add_contact(world, !cubes, options);
-  world.distribute();
-  NodalState &s = world.bodies[1]->nodes();
-  // Nodes of a body are reordered: the nearest start tells which shot it is.
-  const std::size_t per_shot = cubes ? 8 : 1;
+  return volley;
+}
+
+/** Which shot each node of the second body belongs to: nodes of a body are
+    reordered, so the nearest start tells. */
+std::vector<int> shots_of_nodes(const World &world, const Volley &volley)
+{
+  const NodalState &s = world.bodies[1]->nodes();
+  const std::size_t per_shot = volley.points.size() / volley.velocity.size();
   std::vector<int> shot_of(s.n_owned, -1);
   for (std::size_t i = 0; i < s.n_owned; ++i)
   {
     double best = 1e300;
-    for (int k = 0; k < int(per_shot) * n; ++k)
+    for (std::size_t k = 0; k < volley.points.size(); ++k)
     {
-      const Vec x = cubes ? vec(corners[k][0], corners[k][1], corners[k][2])
-                          : vec(cloud.position[k][0], cloud.position[k][1],
-                                cloud.position[k][2]);
-      const double d = norm_square(x - s.position[i]);
+      const MeshPoint &p = volley.points[k];
+      const double d = norm_square(vec(p[0], p[1], p[2]) - s.position[i]);
       if (d < best)
       {
         best = d;
         shot_of[i] = k / per_shot;
       }
     }
-    s.velocity[i] = velocity[shot_of[i]];
   }
+  return shot_of;
+}
+
+/** Marks the shots whose center is below the middle of the plate. */
+void mark_passed(const World &world, const std::vector<int> &shot_of,
+                 std::vector<char> &through)
+{
+  const NodalState &plate = world.bodies[0]->nodes(),
+                   &s = world.bodies[1]->nodes();
+  double middle = 0.;
+  for (std::size_t i = 0; i < plate.n_owned; ++i)
+    middle += plate.position[i][2] / plate.n_owned;
+  const std::size_t n = through.size(), per_shot = s.n_owned / n;
+  std::vector<Vec> center(n, Vec{});
+  for (std::size_t i = 0; i < s.n_owned; ++i)
+    center[shot_of[i]] += (1. / per_shot) * s.position[i];
+  for (std::size_t k = 0; k < n; ++k)
+    if (std::abs(center[k][0]) < half_plate &&
+        std::abs(center[k][1]) < half_plate && center[k][2] < middle)
+      through[k] = 1;
+}
+
+void shoot(Shots &shots, const bool cubes, const int n, const int seed)
+{
+  // Cells that tumble faster gain energy by themselves at this step.
+  const double speed = cubes ? 100. : 300.;
+  World world;
+  add_fem(
+      world,
+      brick({{2. * half_plate, 2. * half_plate, 2e-3}}, {{0, 0, -1e-3}}, 2e-3),
+      {{0, 0, 0}});
+  const Volley volley = add_shots(world, cubes, n, seed, speed);
+  ContactOptions options;
+  options.friction = coulomb(0.2);
+  add_contact(world, !cubes, options);
+  world.distribute();
+  const std::vector<int> shot_of = shots_of_nodes(world, volley);
+  NodalState &s = world.bodies[1]->nodes();
+  for (std::size_t i = 0; i < s.n_owned; ++i)
+    s.velocity[i] = volley.velocity[shot_of[i]];
   world.stepper.initialize();
   const double energy = world.total_energy();
   const auto before = world.momenta();
-  const NodalState &plate = world.bodies[0]->nodes();
   std::vector<char> through(n, 0);
   while (world.stepper.time() < 15e-3 / speed)
   {
@@ -324,16 +366,7 @@ void shoot(Shots &shots, const bool cubes, const int n, const int seed)
       world.advance(cubes ? 0.4 : 0.9);
     shots.given = std::max(shots.given, -world.contact_energy() / energy);
     shots.energy = std::max(shots.energy, world.total_energy() / energy - 1.);
-    double middle = 0.;
-    for (std::size_t i = 0; i < plate.n_owned; ++i)
-      middle += plate.position[i][2] / plate.n_owned;
-    std::vector<Vec> centre(n, Vec{});
-    for (std::size_t i = 0; i < s.n_owned; ++i)
-      centre[shot_of[i]] += (1. / per_shot) * s.position[i];
-    for (int k = 0; k < n; ++k)
-      if (std::abs(centre[k][0]) < half_width &&
-          std::abs(centre[k][1]) < half_width && centre[k][2] < middle)
-        through[k] = 1;
+    mark_passed(world, shot_of, through);
   }
   const auto after = world.momenta();
   for (int d = 0; d < 3; ++d)

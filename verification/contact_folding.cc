@@ -1,12 +1,8 @@
+// Self-contact of one body of hexahedra: prongs that meet, and what must not.
 #include "sabot/couplings/contact.h"
-#include "sabot/geometry/mesh_extraction.h"
+#include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/tria.h>
-
-#include <set>
 
 namespace sabot
 {
@@ -16,19 +12,13 @@ namespace
     one body. */
 HexMesh fork()
 {
-  dealii::Triangulation<3> block, grid;
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      block, {6, 2, 16}, {-3e-3, -1e-3, -2e-3}, {3e-3, 1e-3, 14e-3});
-  std::set<dealii::Triangulation<3>::active_cell_iterator> empty;
-  for (const auto &cell : block.active_cell_iterators())
-  {
-    const auto x = cell->center();
-    if ((std::abs(x[0]) < 1e-3 && x[2] > 0.) || (x[0] < 0. && x[2] > 12e-3))
-      empty.insert(cell);
-  }
-  dealii::GridGenerator::create_triangulation_with_removed_cells(block, empty,
-                                                                 grid);
-  return extract_mesh(grid);
+  return hollow_block(
+      {{{6, 2, 16}}, {{-3e-3, -1e-3, -2e-3}}, {{3e-3, 1e-3, 14e-3}}},
+      [](const MeshPoint &x)
+      {
+        return (std::abs(x[0]) < 1e-3 && x[2] > 0.) ||
+               (x[0] < 0. && x[2] > 12e-3);
+      });
 }
 
 void add_self_contact(World &world)

@@ -1,5 +1,7 @@
+// Laws of contact: rebound, friction and its cap, Hertz, the cost of a search.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
 #include "sabot/geometry/round_bodies.h"
 #include "sabot/materials/johnson_cook.h"
 #include "sabot/materials/laws.h"
@@ -154,7 +156,7 @@ std::vector<Check> sliding()
   const double g = 2e6, v = 10., mu = 0.3;
   std::vector<Check> checks;
   ContactOptions options;
-  options.friction = mu;
+  options.friction = coulomb(mu);
   const Slide stop = slide(g, v, options, 20e-6);
   checks.push_back({"time to a fiftieth of the speed", 0.98 * v / (mu * g),
                     stop.stopped_at, 0.02 * v / (mu * g), "s",
@@ -166,9 +168,8 @@ std::vector<Check> sliding()
                     (v - half.velocity) / half.normal_impulse, 1e-3 * mu, "1",
                     "Coulomb"});
 
-  options.dynamic_friction = 0.1;
-  options.friction_decay = 0.2;
-  const double beta = options.friction_decay, a = 0.1, b = mu - a;
+  const double beta = 0.2, a = 0.1, b = mu - a;
+  options.friction = coulomb(mu, a, beta);
   const Slide decay = slide(g, v, options, 15e-6);
   const double exact =
       std::log(((a * std::exp(beta * v) + b) *
@@ -181,14 +182,13 @@ std::vector<Check> sliding()
                     "dv/dI = -(mu_d + (mu_s - mu_d) exp(-beta v))"});
 
   ContactOptions limited;
-  limited.friction = 0.5;
-  limited.shear_limit = 1e6;
+  limited.friction = coulomb(0.5);
+  limited.shear_strength = ShearStrength::given(1e6);
   const double lost = 1e6 / (aluminum().density * 2e-3) * 10e-6;
   checks.push_back({"loss of speed at the shear strength", lost,
                     v - slide(g, v, limited, 10e-6).velocity, 0.05 * lost,
                     "m/s", "tau t/(rho height)"});
-  limited.shear_limit = 1e300;
-  limited.limit_by_yield = true;
+  limited.shear_strength = ShearStrength::of_yield();
   checks.push_back(
       {"loss of speed at the shear strength of the softer side", lost,
        v - slide(g, v, limited, 10e-6, std::make_shared<Soft>()).velocity,
@@ -205,8 +205,8 @@ std::vector<Check> sliding_on_worked_metal()
   const double Y = std::sqrt(3.) * tau,
                lost = tau / (aluminum().density * 2e-3) * end;
   ContactOptions options;
-  options.friction = 8.; // ten times the shear strength
-  options.limit_by_yield = true;
+  options.friction = coulomb(8.); // ten times the shear strength
+  options.shear_strength = ShearStrength::of_yield();
   const ElasticConstants &constants = aluminum();
   HardeningParameters hardening;
   hardening.table_strain = {0., 1., 2.};

@@ -1,3 +1,5 @@
+// Contact of particles with particles: friction, smoothness, stability.
+#include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/particle_contact.h"
 #include "sabot/materials/laws.h"
 #include "verification/problem.h"
@@ -54,7 +56,7 @@ std::vector<Check> sliding()
       make_box_cloud({{1e-3, 0., -1e-3}}, {{10e-3, 8e-3, 2e-3}}, 1e-3),
       elastic(), slab));
   ContactOptions options;
-  options.friction = mu;
+  options.friction = coulomb(mu);
   add_contact(world, options);
   double x = 0., stopped_at = std::nan(""), distance = stopped_at, worst = 0.;
   while (world.stepper.time() < 40e-6)
@@ -113,10 +115,10 @@ std::vector<Check> worked_metal()
     return v - world.bodies[0]->measure().velocity[0];
   };
   ContactOptions by_yield, given, given_soft;
-  by_yield.friction = given.friction = given_soft.friction = 8.;
-  by_yield.limit_by_yield = true;
-  given.shear_limit = tau;
-  given_soft.shear_limit = 0.25 * tau;
+  by_yield.friction = given.friction = given_soft.friction = coulomb(8.);
+  by_yield.shear_strength = ShearStrength::of_yield();
+  given.shear_strength = ShearStrength::given(tau);
+  given_soft.shear_strength = ShearStrength::given(0.25 * tau);
   const double hard = loss(given, 3.), soft = loss(given_soft, 0.);
   return {{"loss of speed on hardened metal", hard, loss(by_yield, 3.),
            1e-5 * hard, "m/s", "as with the strength Y(eps)/sqrt(3) given"},

@@ -1,3 +1,4 @@
+// Materials at their limits: melt, moduli far apart, cells of extreme shape.
 #include "sabot/couplings/tie.h"
 #include "sabot/kernels/stress_update.h"
 #include "sabot/materials/laws.h"

@@ -1,3 +1,4 @@
+// Particles at their limits: one, two, coincident ones, a flight of 1e6 steps.
 #include "sabot/couplings/self_contact.h"
 #include "verification/balance.h"
 #include "verification/problem.h"

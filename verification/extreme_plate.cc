@@ -1,4 +1,6 @@
+// The perforated plate, coarse, from 1 m/s to 6 km/s.
 #include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
 #include "sabot/materials/laws.h"
@@ -55,13 +57,13 @@ Outcome strike(const double speed, const double end)
       make_cylinder(8.35e-3, 23e-3, 2, {{0., 0., 11.51e-3}}, 2.8e-3), striker,
       projectile));
   ContactOptions contact;
-  contact.friction = 0.3;
+  contact.friction = coulomb(0.3);
   world.couplings.push_back(std::make_unique<Contact>(
       "impact", world.pointers(),
       std::vector<ContactPair>{{0, 1, true}, {0, 2}, {2, 0}, {2, 1}}, contact,
       MPI_COMM_WORLD));
   SelfContactOptions debris;
-  debris.friction = 0.3;
+  debris.friction = coulomb(0.3);
   world.couplings.push_back(std::make_unique<SelfContact>(
       "debris", world.pointers(), std::vector<std::pair<int, int>>{{1, 1}},
       debris, MPI_COMM_WORLD));

@@ -1,4 +1,6 @@
+// One impact in units scaled by 1e+-3 gives the same answer.
 #include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
 #include "sabot/materials/laws.h"
@@ -70,13 +72,13 @@ State run(const Units &u)
   world.bodies.push_back(std::make_unique<FemBody>(
       "block", 2, make_graded_box(block), metal, projectile));
   ContactOptions contact;
-  contact.friction = 0.3;
+  contact.friction = coulomb(0.3);
   world.couplings.push_back(std::make_unique<Contact>(
       "impact", world.pointers(),
       std::vector<ContactPair>{{0, 1, true}, {0, 2}, {2, 0}, {2, 1}}, contact,
       MPI_COMM_WORLD));
   SelfContactOptions debris;
-  debris.friction = 0.3;
+  debris.friction = coulomb(0.3);
   world.couplings.push_back(std::make_unique<SelfContact>(
       "debris", world.pointers(), std::vector<std::pair<int, int>>{{1, 1}},
       debris, MPI_COMM_WORLD));

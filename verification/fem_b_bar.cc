@@ -1,3 +1,4 @@
+// Hexahedra with a mean dilatation: patch test, eigenmodes, bending.
 #include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"

@@ -1,3 +1,4 @@
+// Eroding hexahedra: what a torn bar and a bursting block keep.
 #include "verification/problem.h"
 #include "verification/world.h"
 

@@ -1,3 +1,4 @@
+// Large rotations of soft hexahedra: a spinning plate, a twisting column.
 #include "sabot/materials/laws.h"
 #include "verification/balance.h"
 #include "verification/problem.h"

@@ -1,11 +1,8 @@
-#include "sabot/geometry/mesh_extraction.h"
+// One-point hexahedra: patch test and hourglass modes.
 #include "sabot/materials/laws.h"
+#include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 #include <Eigen/Dense>
 
@@ -19,20 +16,17 @@ constexpr double young = 1e9, edge = 1.;
     @p distortion, those of the boundary as well. */
 HexMesh distorted(const unsigned int n, const double distortion)
 {
-  dealii::Triangulation<3> grid;
-  dealii::GridGenerator::subdivided_hyper_cube(grid, n, -0.5 * n * edge,
-                                               0.5 * n * edge);
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(-distortion, distortion);
-  dealii::GridTools::transform(
-      [&](const dealii::Point<3> &x)
-      {
-        return dealii::Point<3>(x[0] + uniform(generator),
-                                x[1] + uniform(generator),
-                                x[2] + uniform(generator));
-      },
-      grid);
-  return extract_mesh(grid);
+  return mapped_cube(n, -0.5 * n * edge, 0.5 * n * edge,
+                     [&](const MeshPoint &x)
+                     {
+                       // One after the other, so that the order is fixed.
+                       MeshPoint moved = x;
+                       for (double &coordinate : moved)
+                         coordinate += uniform(generator);
+                       return moved;
+                     });
 }
 
 FemBody &add(World &world, const HexMesh &mesh, const FemOptions &options)

@@ -1,3 +1,4 @@
+// Planes of symmetry: quarters of models against the whole, and driven ends.
 #include "sabot/couplings/contact.h"
 #include "verification/problem.h"
 #include "verification/world.h"

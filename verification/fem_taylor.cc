@@ -1,3 +1,4 @@
+// The copper Taylor bar of hexahedra on three meshes.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "verification/balance.h"

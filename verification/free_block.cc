@@ -1,3 +1,4 @@
+// Natural frequencies of a free cube by Rayleigh-Ritz.
 #include "verification/free_block.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// Heat in hexahedra: conduction in a slab, thermal expansion.
 #include "verification/driven.h"
 #include "verification/problem.h"
 

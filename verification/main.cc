@@ -1,9 +1,8 @@
 // sabot-verify: the program that `sabot verify` starts.
 #include "sabot/base/error.h"
+#include "sabot/base/mpi_session.h"
 #include "sabot/output/file_tools.h"
 #include "verification/problem.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
 
@@ -31,10 +30,10 @@ int main(int argc, char **argv)
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
 
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const MpiSession mpi(argc, argv);
   try
   {
-    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    if (mpi.n_ranks() > 1)
       throw InputError("", "`sabot verify` runs on one rank");
     if (!page_file.empty())
       write_text(page_file, problems_page());

@@ -1,3 +1,4 @@
+// One driven cell: objective rates in simple shear, Johnson-Cook in tension.
 #include "sabot/materials/laws.h"
 #include "verification/driven.h"
 #include "verification/problem.h"

@@ -1,3 +1,4 @@
+// Plane waves of plate impact: the Hugoniot, the elastic precursor.
 #include "sabot/couplings/contact.h"
 #include "sabot/materials/laws.h"
 #include "sabot/materials/mie_gruneisen.h"

@@ -1,3 +1,4 @@
+// Runs verification problems and prints their checks.
 #include "verification/problem.h"
 
 #include "sabot/base/error.h"

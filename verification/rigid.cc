@@ -1,3 +1,4 @@
+// Rigid bodies: a free top, an impact on a block, a prescribed pusher.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/geometry/round_bodies.h"
@@ -104,7 +105,7 @@ std::vector<Check> impact()
   ContactOptions contact;
   contact.damping_fraction = 0.;
   // Friction acts at the node and at its projection, a little apart.
-  contact.friction = 0.;
+  contact.friction = nullptr;
   world.couplings.push_back(std::make_unique<Contact>(
       "impact", world.pointers(), std::vector<ContactPair>{{0, 1}, {1, 0}},
       contact, MPI_COMM_WORLD));

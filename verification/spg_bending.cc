@@ -1,3 +1,4 @@
+// Static bending of a nearly incompressible beam of particles.
 #include "sabot/materials/laws.h"
 #include "verification/problem.h"
 #include "verification/world.h"

@@ -1,3 +1,4 @@
+// Particles on meshes of any shape: linear fields, rotation, mass.
 #include "sabot/geometry/carving.h"
 #include "sabot/geometry/round_bodies.h"
 #include "verification/problem.h"

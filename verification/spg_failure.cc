@@ -1,3 +1,4 @@
+// Failure of bonds: where each criterion fires, and that nothing heals.
 #include "sabot/base/choice.h"
 #include "verification/problem.h"
 #include "verification/world.h"
@@ -92,16 +93,60 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
                     "1", "irreversible", Check::Kind::at_least});
 }
 
+Mat uniaxial(const double e)
+{
+  Mat A = Mat::identity();
+  A.set(0, 0, std::exp(e));
+  return A;
+}
+
+SpgOptions principal_stress()
+{
+  SpgOptions o = inviscid();
+  o.failure_criterion = choose<FailureCriterion>(
+      "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
+  return o;
+}
+
+/** Both conditions, stress and stretch: the first bonds are those along the
+    stretch. */
+void critical_stretch(std::vector<Check> &checks)
+{
+  SpgOptions o = principal_stress();
+  o.critical_stretch = 1.05;
+  World world;
+  SpgBody &body = add_block(world, o, elastic(0.33));
+  double first = std::nan("");
+  std::size_t wrong = 0;
+  int n = 0;
+  for (double e = 0.; e < 0.07 && std::isnan(first); e += 1e-4)
+  {
+    deform(body, uniaxial(e), 1e-8, ++n);
+    if (measure(body, "bonds broken") > 0.)
+      first = std::exp(e);
+  }
+  // What is left is not longer than the critical stretch.
+  const NodalState &nodes = body.nodes();
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    for (std::size_t b = body.bond_list().begin(i); b < body.bond_list().end(i);
+         ++b)
+    {
+      const std::uint32_t j = body.bond_list().neighbor[b];
+      wrong += norm(nodes.position[j] - nodes.position[i]) >
+               1.05 * norm(nodes.reference_position[j] -
+                           nodes.reference_position[i]);
+    }
+  checks.push_back({"critical stretch 1.05: stretch of first failure", 1.05,
+                    first, 2e-3, "1", "the bond nearest to the axis",
+                    Check::Kind::near});
+  checks.push_back({"critical stretch 1.05: longer bonds left", 0.,
+                    double(wrong), 0., "1", "both conditions are met"});
+}
+
 std::vector<Check> criteria()
 {
   std::vector<Check> checks;
   const double K = aluminum().bulk_modulus(), G = aluminum().shear_modulus();
-  const auto uniaxial = [](const double e)
-  {
-    Mat A = Mat::identity();
-    A.set(0, 0, std::exp(e));
-    return A;
-  };
   const auto isochoric = [](const double e)
   {
     Mat A = Mat::zero();
@@ -126,11 +171,9 @@ std::vector<Check> criteria()
   }
   {
     // Uniaxial strain: sigma_xx = (K + 4 G/3) e.
-    SpgOptions o = inviscid();
-    o.failure_criterion = choose<FailureCriterion>(
-        "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
-    add_criterion(checks, "principal stress 1 GPa", o, elastic(0.33),
-                  1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e", uniaxial);
+    add_criterion(checks, "principal stress 1 GPa", principal_stress(),
+                  elastic(0.33), 1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e",
+                  uniaxial);
   }
   {
     // Simple shear: ln(l1/l3) = 2 asinh(gamma/2).
@@ -140,155 +183,134 @@ std::vector<Check> criteria()
     add_criterion(checks, "shear strain 0.2", o, elastic(0.33),
                   2. * std::sinh(0.1), "2 asinh(gamma/2)", shear);
   }
-  {
-    // Both conditions: the first bonds are those along the stretch.
-    SpgOptions o = inviscid();
-    o.failure_criterion = choose<FailureCriterion>(
-        "maximum principal stress", {{"Critical principal stress", "1 GPa"}});
-    o.critical_stretch = 1.05;
-    World world;
-    SpgBody &body = add_block(world, o, elastic(0.33));
-    double first = std::nan("");
-    std::size_t wrong = 0;
-    int n = 0;
-    for (double e = 0.; e < 0.07 && std::isnan(first); e += 1e-4)
-    {
-      deform(body, uniaxial(e), 1e-8, ++n);
-      if (measure(body, "bonds broken") > 0.)
-        first = std::exp(e);
-    }
-    // What is left is not longer than the critical stretch.
-    const NodalState &nodes = body.nodes();
-    for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      for (std::size_t b = body.bond_list().begin(i);
-           b < body.bond_list().end(i); ++b)
-      {
-        const std::uint32_t j = body.bond_list().neighbor[b];
-        wrong += norm(nodes.position[j] - nodes.position[i]) >
-                 1.05 * norm(nodes.reference_position[j] -
-                             nodes.reference_position[i]);
-      }
-    checks.push_back({"critical stretch 1.05: stretch of first failure", 1.05,
-                      first, 2e-3, "1", "the bond nearest to the axis",
-                      Check::Kind::near});
-    checks.push_back({"critical stretch 1.05: longer bonds left", 0.,
-                      double(wrong), 0., "1", "both conditions are met"});
-  }
+  critical_stretch(checks);
   return checks;
+}
+
+using Pairs = std::vector<std::pair<GlobalIndex, GlobalIndex>>;
+
+/** The bonds of @p body by numbers of their ends, in order. */
+Pairs pairs_of(const SpgBody &body)
+{
+  const NodalState &n = body.nodes();
+  Pairs all;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+    for (std::size_t b = body.bond_list().begin(i); b < body.bond_list().end(i);
+         ++b)
+      all.emplace_back(n.global_id[i],
+                       n.global_id[body.bond_list().neighbor[b]]);
+  return all;
+}
+
+/** What is in @p some and not in @p others. */
+Pairs without(const Pairs &some, const Pairs &others)
+{
+  Pairs rest;
+  std::set_difference(some.begin(), some.end(), others.begin(), others.end(),
+                      std::back_inserter(rest));
+  return rest;
+}
+
+SpgOptions with_policy(const SpgOptions::NeighborPolicy policy)
+{
+  SpgOptions o = inviscid();
+  o.neighbor_policy = policy;
+  o.kernel_update_interval = 4;
+  return o;
 }
 
 /** Bonds of the middle of a block fail; the halves are then pressed together
     through many kernel updates with a search. */
+void press_halves(std::vector<Check> &checks,
+                  const SpgOptions::NeighborPolicy policy)
+{
+  using Policy = SpgOptions::NeighborPolicy;
+  World world;
+  SpgOptions o = with_policy(policy);
+  o.kernel_update_strain = 0.;
+  o.set_critical_plastic_strain(0.1);
+  SpgBody &body = add_block(world, o, perfect(aluminum_yield_stress()));
+  const NodalState &n = body.nodes();
+  // The particles beside the middle plane are strained beyond the limit.
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+    if (std::abs(n.reference_position[i][0]) < 0.5e-3)
+      body.set_state("effective plastic strain", i, 0.25);
+  const Pairs original = pairs_of(body);
+  int step = 0;
+  Mat A = Mat::identity();
+  for (; step < 20; ++step)
+  {
+    A.set(0, 0, 1. + 1e-3 * (step + 1));
+    deform(body, A, 1e-8, step + 1);
+  }
+  const Pairs failed = without(original, pairs_of(body));
+  // Compression and shear by half a spacing over the height: searches find
+  // what has come near.
+  const std::size_t updates = body.n_kernel_updates();
+  for (int k = 0; k < 200; ++k, ++step)
+  {
+    A.set(0, 0, 1.02 - 5e-4 * k);
+    A.set(0, 1, 3e-3 * k);
+    deform(body, A, 1e-8, step + 1);
+  }
+  const Pairs now = pairs_of(body), added = without(now, original);
+  const std::size_t n_healed = failed.size() - without(failed, now).size();
+  const std::string who = policy == Policy::lagrangian ? "Lagrangian list: "
+                          : policy == Policy::search   ? "search: "
+                                                       : "search undamaged: ";
+  checks.push_back({who + "bonds failed", 10., double(failed.size()), 0., "1",
+                    "so that some could heal", Check::Kind::at_least});
+  checks.push_back({who + "kernel updates since", 40.,
+                    double(body.n_kernel_updates() - updates), 0., "1",
+                    "searches", Check::Kind::at_least});
+  checks.push_back({who + "failed bonds that came back", 0., double(n_healed),
+                    0., "1", "irreversible"});
+  if (policy != Policy::search)
+    checks.push_back({who + "new bonds of damaged particles", 0.,
+                      double(added.size()), 0., "1",
+                      "the whole block is damaged"});
+  else
+    checks.push_back({who + "new bonds", 1., double(added.size()), 0., "1",
+                      "what came near without a failed bond",
+                      Check::Kind::at_least});
+}
+
+/** Intact, sheared by 100 %: neighbors change, F stays exact. */
+void shear_intact(std::vector<Check> &checks,
+                  const SpgOptions::NeighborPolicy policy)
+{
+  World world;
+  SpgBody &body = add_block(world, with_policy(policy), elastic(0.33));
+  const double before = pairs_of(body).size();
+  Mat A = Mat::identity();
+  for (int step = 1; step <= 400; ++step)
+  {
+    A.set(0, 1, 2.5e-3 * step);
+    deform(body, A, 1e-8, step);
+  }
+  double error = 0.;
+  for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
+    error =
+        std::max(error, std::abs(body.deformation_gradient(i)(0, 1) - A(0, 1)));
+  const std::string who = policy == SpgOptions::NeighborPolicy::search
+                              ? "search, intact block: "
+                              : "search undamaged, intact block: ";
+  checks.push_back({who + "shear of F, largest error", 0., error, 1e-9, "1",
+                    "uniform deformation"});
+  checks.push_back({who + "bonds over those of the start", 0.,
+                    pairs_of(body).size() / before, 0., "1", "",
+                    Check::Kind::reported});
+}
+
 std::vector<Check> no_healing()
 {
-  std::vector<Check> checks;
   using Policy = SpgOptions::NeighborPolicy;
+  std::vector<Check> checks;
   for (const Policy policy :
        {Policy::lagrangian, Policy::search_undamaged, Policy::search})
-  {
-    World world;
-    SpgOptions o = inviscid();
-    o.neighbor_policy = policy;
-    o.kernel_update_interval = 4;
-    o.kernel_update_strain = 0.;
-    o.set_critical_plastic_strain(0.1);
-    SpgBody &body = add_block(world, o, perfect(aluminum_yield_stress()));
-    NodalState &n = body.nodes();
-    // The particles beside the middle plane are strained beyond the limit.
-    for (std::size_t i = 0; i < n.n_owned; ++i)
-      if (std::abs(n.reference_position[i][0]) < 0.5e-3)
-        body.set_state("effective plastic strain", i, 0.25);
-    const auto pairs = [&]
-    {
-      std::vector<std::pair<GlobalIndex, GlobalIndex>> all;
-      for (std::size_t i = 0; i < n.n_owned; ++i)
-        for (std::size_t b = body.bond_list().begin(i);
-             b < body.bond_list().end(i); ++b)
-          all.emplace_back(n.global_id[i],
-                           n.global_id[body.bond_list().neighbor[b]]);
-      return all;
-    };
-    const auto original = pairs();
-    int step = 0;
-    Mat A = Mat::identity();
-    for (; step < 20; ++step)
-    {
-      A.set(0, 0, 1. + 1e-3 * (step + 1));
-      deform(body, A, 1e-8, step + 1);
-    }
-    const auto survivors = pairs();
-    std::vector<std::pair<GlobalIndex, GlobalIndex>> failed;
-    std::set_difference(original.begin(), original.end(), survivors.begin(),
-                        survivors.end(), std::back_inserter(failed));
-    // Compression and shear by half a spacing over the height: searches find
-    // what has come near.
-    const std::size_t updates = body.n_kernel_updates();
-    for (int k = 0; k < 200; ++k, ++step)
-    {
-      A.set(0, 0, 1.02 - 5e-4 * k);
-      A.set(0, 1, 3e-3 * k);
-      deform(body, A, 1e-8, step + 1);
-    }
-    const auto now = pairs();
-    std::vector<std::pair<GlobalIndex, GlobalIndex>> healed, added;
-    std::set_intersection(failed.begin(), failed.end(), now.begin(), now.end(),
-                          std::back_inserter(healed));
-    std::set_difference(now.begin(), now.end(), original.begin(),
-                        original.end(), std::back_inserter(added));
-    const std::string who = policy == Policy::lagrangian ? "Lagrangian list: "
-                            : policy == Policy::search   ? "search: "
-                                                         : "search undamaged: ";
-    checks.push_back({who + "bonds failed", 10., double(failed.size()), 0., "1",
-                      "so that some could heal", Check::Kind::at_least});
-    checks.push_back({who + "kernel updates since", 40.,
-                      double(body.n_kernel_updates() - updates), 0., "1",
-                      "searches", Check::Kind::at_least});
-    checks.push_back({who + "failed bonds that came back", 0.,
-                      double(healed.size()), 0., "1", "irreversible"});
-    if (policy != Policy::search)
-      checks.push_back({who + "new bonds of damaged particles", 0.,
-                        double(added.size()), 0., "1",
-                        "the whole block is damaged"});
-    else
-      checks.push_back({who + "new bonds", 1., double(added.size()), 0., "1",
-                        "what came near without a failed bond",
-                        Check::Kind::at_least});
-  }
+    press_halves(checks, policy);
   for (const Policy policy : {Policy::search_undamaged, Policy::search})
-  {
-    // Intact, sheared by 100 %: neighbours change, F stays exact.
-    World world;
-    SpgOptions o = inviscid();
-    o.neighbor_policy = policy;
-    o.kernel_update_interval = 4;
-    SpgBody &body = add_block(world, o, elastic(0.33));
-    NodalState &n = body.nodes();
-    const auto n_bonds = [&]
-    {
-      std::size_t sum = 0;
-      for (std::size_t i = 0; i < n.n_owned; ++i)
-        sum += body.bond_list().n_bonds(i);
-      return double(sum);
-    };
-    const double before = n_bonds();
-    Mat A = Mat::identity();
-    for (int step = 1; step <= 400; ++step)
-    {
-      A.set(0, 1, 2.5e-3 * step);
-      deform(body, A, 1e-8, step);
-    }
-    double error = 0.;
-    for (std::size_t i = 0; i < n.n_owned; ++i)
-      error = std::max(error,
-                       std::abs(body.deformation_gradient(i)(0, 1) - A(0, 1)));
-    const std::string who = policy == Policy::search
-                                ? "search, intact block: "
-                                : "search undamaged, intact block: ";
-    checks.push_back({who + "shear of F, largest error", 0., error, 1e-9, "1",
-                      "uniform deformation"});
-    checks.push_back({who + "bonds over those of the start", 0.,
-                      n_bonds() / before, 0., "1", "", Check::Kind::reported});
-  }
+    shear_intact(checks, policy);
   return checks;
 }
 

@@ -1,3 +1,4 @@
+// Conduction of heat among particles, in a slab and in a rod.
 #include "verification/problem.h"
 #include "verification/world.h"
 

@@ -1,3 +1,4 @@
+// Spectra of a free block of particles against Rayleigh-Ritz.
 #include "sabot/base/choice.h"
 #include "verification/free_block.h"
 #include "verification/problem.h"

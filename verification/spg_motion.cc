@@ -1,3 +1,4 @@
+// Large motions of particles: spin, strain, shear, a twisting column.
 #include "sabot/kernels/stress_update.h"
 #include "sabot/materials/laws.h"
 #include "verification/problem.h"

@@ -1,3 +1,4 @@
+// Patch test of a perturbed cloud of particles.
 #include "verification/problem.h"
 #include "verification/world.h"
 

@@ -1,3 +1,4 @@
+// The copper Taylor bar of particles at three spacings.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
 #include "verification/problem.h"

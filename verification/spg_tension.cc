@@ -1,3 +1,4 @@
+// A bar of particles torn in two: momentum and energy.
 #include "sabot/couplings/self_contact.h"
 #include "verification/balance.h"
 #include "verification/problem.h"

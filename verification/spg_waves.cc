@@ -1,3 +1,4 @@
+// Waves and vibrations of particles: bar, cantilever, pulse, step limit.
 #include "verification/problem.h"
 #include "verification/world.h"
 

@@ -1,11 +1,8 @@
+// Ties of cells and particles: linear fields, waves across, nested pipes.
 #include "sabot/couplings/tie.h"
-#include "sabot/geometry/mesh_extraction.h"
+#include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 namespace sabot
 {
@@ -150,19 +147,14 @@ Patch linear_patch(const double cell, const double sag)
   const auto bend = [&](std::array<double, 3> &p)
   { p[0] += sag * (p[1] * p[1] + 0.5 * p[2] * p[2]) / 36e-6; };
   World world;
-  dealii::Triangulation<3> grid;
   const unsigned int n = std::lround(6e-3 / cell);
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {n, 2 * n, 2 * n}, {-6e-3, -6e-3, -6e-3}, {0., 6e-3, 6e-3});
-  dealii::GridTools::transform(
-      [&](const dealii::Point<3> &x)
+  const HexMesh mesh = mapped_block(
+      {{{n, 2 * n, 2 * n}}, {{-6e-3, -6e-3, -6e-3}}, {{0., 6e-3, 6e-3}}},
+      [&](MeshPoint p)
       {
-        std::array<double, 3> p{{x[0], x[1], x[2]}};
         bend(p);
-        return dealii::Point<3>(p[0], p[1], p[2]);
-      },
-      grid);
-  const HexMesh mesh = extract_mesh(grid);
+        return p;
+      });
   ParticleCloud cloud =
       make_box_cloud({{3e-3, 0., 0.}}, {{6e-3, 12e-3, 12e-3}}, 1e-3);
   for (auto &p : cloud.position)
@@ -258,18 +250,13 @@ std::vector<Check> linear()
 HexMesh pipe(const double inner, const double outer, const int n_around,
              const int n_along)
 {
-  dealii::Triangulation<3> grid;
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      grid, {2, unsigned(n_around), unsigned(n_along)},
-      dealii::Point<3>(inner, 0., 0.), dealii::Point<3>(outer, M_PI_2, 4e-3));
-  dealii::GridTools::transform(
-      [](const dealii::Point<3> &x)
-      {
-        return dealii::Point<3>(x[0] * std::cos(x[1]), x[0] * std::sin(x[1]),
-                                x[2]);
-      },
-      grid);
-  return extract_mesh(grid);
+  return mapped_block(
+      {{{2, unsigned(n_around), unsigned(n_along)}},
+       {{inner, 0., 0.}},
+       {{outer, M_PI_2, 4e-3}}},
+      [](const MeshPoint &x) {
+        return MeshPoint{{x[0] * std::cos(x[1]), x[0] * std::sin(x[1]), x[2]}};
+      });
 }
 
 struct Pipes

@@ -121,6 +121,11 @@ void Parameters::declare_knob(const std::string &name,
                               const std::string &meaning)
 {
   declare_entry(name, standard, pattern, meaning);
+  mark_as_knob(name);
+}
+
+void Parameters::mark_as_knob(const std::string &name)
+{
   all_knobs.push_back(section);
   all_knobs.back().push_back(name);
 }

@@ -1,3 +1,4 @@
+// Conjugate gradients whose sums do not depend on the number of ranks.
 #include "sabot/bodies/conduction_solver.h"
 
 #include "sabot/base/error.h"

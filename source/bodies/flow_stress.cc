@@ -1,3 +1,4 @@
+// The flow stress of any law, by what its return makes of trial stresses.
 #include "sabot/bodies/flow_stress.h"
 
 #include <algorithm>
@@ -43,6 +44,50 @@ struct Bracket
           theta >= 1. ? high : std::max(0.5 * (low + high), high - 0.1 * gain);
   }
 };
+
+/** A batch of copies of points at rest, which a law may update. */
+struct Copies
+{
+  Copies(const std::size_t n_states, const std::size_t n,
+         const double *jacobian)
+      : state(n_states * max_batch_points)
+  {
+    for (std::size_t s = 0; s < n_states; ++s)
+      rows.push_back(&state[s * max_batch_points]);
+    batch.n = n;
+    batch.dt = at_rest;
+    for (int c = 0; c < n_symmetric; ++c)
+    {
+      batch.strain_increment[c] = no_strain;
+      batch.stress[c] = stress[c];
+    }
+    batch.jacobian = jacobian;
+    batch.states = rows.data();
+    batch.extra_square = extra;
+    batch.return_factor = theta;
+    batch.plastic_work = work;
+    batch.viscous_pressure = no_strain;
+    batch.stiffening = stiffening;
+    for (int c = 0; c < 9; ++c)
+      batch.deformation_gradient[c] = gradient[c % 4 == 0];
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      gradient[0][k] = 0.;
+      gradient[1][k] = std::cbrt(jacobian[k]);
+    }
+  }
+  Copies(const Copies &) = delete;
+  Copies &operator=(const Copies &) = delete;
+
+  const double no_strain[max_batch_points] = {};
+  double stress[n_symmetric][max_batch_points];
+  double gradient[2][max_batch_points]; // off and on the diagonal
+  double extra[max_batch_points], theta[max_batch_points];
+  double work[max_batch_points], stiffening[max_batch_points];
+  std::vector<double> state;
+  std::vector<double *> rows; // of state, [n_states]
+  MaterialBatch batch;
+};
 } // namespace
 
 FlowStressProbe::FlowStressProbe(const Material &material) : material(material)
@@ -69,59 +114,29 @@ void FlowStressProbe::flow_stress_of_batch(const std::size_t begin,
                                            double *const result) const
 {
   const std::size_t n_states = is_tensor.size();
-  const double no_strain[max_batch_points] = {};
-  double stress[n_symmetric][max_batch_points], gradient[2][max_batch_points],
-      extra[max_batch_points], theta[max_batch_points], work[max_batch_points],
-      stiffening[max_batch_points];
-  std::vector<double> state(n_states * max_batch_points);
-  std::vector<double *> rows;
-  for (std::size_t s = 0; s < n_states; ++s)
-    rows.push_back(&state[s * max_batch_points]);
-  MaterialBatch batch;
-  batch.n = n;
-  batch.dt = at_rest;
-  for (int c = 0; c < n_symmetric; ++c)
-  {
-    batch.strain_increment[c] = no_strain;
-    batch.stress[c] = stress[c];
-  }
-  batch.jacobian = &jacobians[begin];
-  batch.states = rows.data();
-  batch.extra_square = extra;
-  batch.return_factor = theta;
-  batch.plastic_work = work;
-  batch.viscous_pressure = no_strain;
-  batch.stiffening = stiffening;
-  for (int c = 0; c < 9; ++c)
-    batch.deformation_gradient[c] = gradient[c % 4 == 0];
-
+  Copies copies(n_states, n, &jacobians[begin]);
   Bracket brackets[max_batch_points];
   for (std::size_t k = 0; k < n; ++k)
-  {
-    Bracket &bracket = brackets[k];
-    bracket.high = bracket.trial = material.shear_modulus();
-    gradient[0][k] = 0.;
-    gradient[1][k] = std::cbrt(jacobians[begin + k]);
-  }
+    brackets[k].high = brackets[k].trial = material.shear_modulus();
   for (int trial = 0; trial < most_trials; ++trial)
   {
     // All the stress is beside the deviator, so that nothing has a direction.
     for (std::size_t k = 0; k < n; ++k)
     {
       for (int c = 0; c < n_symmetric; ++c)
-        stress[c][k] = c < 3 ? -pressures[begin + k] : 0.;
+        copies.stress[c][k] = c < 3 ? -pressures[begin + k] : 0.;
       for (std::size_t s = 0; s < n_states; ++s)
-        rows[s][k] = states[(begin + k) * n_states + s];
-      extra[k] = brackets[k].trial * brackets[k].trial;
-      theta[k] = stiffening[k] = 1.;
+        copies.rows[s][k] = states[(begin + k) * n_states + s];
+      copies.extra[k] = brackets[k].trial * brackets[k].trial;
+      copies.theta[k] = copies.stiffening[k] = 1.;
     }
-    material.update(batch);
+    material.update(copies.batch);
     bool all_done = true;
     for (std::size_t k = 0; k < n; ++k)
     {
       Bracket &bracket = brackets[k];
       if (!bracket.is_done)
-        bracket.learn(theta[k]);
+        bracket.learn(copies.theta[k]);
       all_done = all_done && bracket.is_done;
     }
     if (all_done)

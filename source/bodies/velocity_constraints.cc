@@ -1,3 +1,4 @@
+// Prescribed velocities of nodes, and the work that they do.
 #include "sabot/bodies/velocity_constraints.h"
 
 namespace sabot

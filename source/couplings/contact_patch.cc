@@ -1,4 +1,7 @@
-#include "sabot/couplings/contact.h"
+// The pressure of a particle on the nodes of fine faces around it.
+#include "sabot/couplings/contact_patch.h"
+
+#include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/patch_weights.h"
 
 #include <algorithm>
@@ -6,51 +9,40 @@
 
 namespace sabot
 {
-double Contact::patch_radius(const int nodes_of, const int faces_of) const
+double ContactPatch::radius(const Body &body_of_nodes,
+                            const ContactSurface &nodes,
+                            const ContactSurface &faces)
 {
-  // A particle stands for a volume as wide as the spacing, not for a point:
-  // faces that are about as small or smaller would bulge between particles.
-  constexpr double normalised_radius = 1.5, fine = 0.75;
-  const ContactSurface &nodes = surfaces[nodes_of], &faces = surfaces[faces_of];
-  if (bodies[nodes_of]->particles() == nullptr ||
+  // Faces that are about as small or smaller would bulge between particles.
+  constexpr double normalized_radius = 1.5, fine = 0.75;
+  if (body_of_nodes.particles() == nullptr ||
       nodes.spacing < fine * faces.spacing)
     return 0.;
-  return normalised_radius * std::max(nodes.spacing, faces.spacing);
+  return normalized_radius * std::max(nodes.spacing, faces.spacing);
 }
 
-void Contact::spread(const Group &group, const std::ptrdiff_t face,
-                     const FaceProjection &projection, Vec &normal,
-                     double &depth)
+void ContactPatch::reset(const std::vector<ContactSurface> &surfaces,
+                         const std::size_t n_slots)
 {
-  touched.clear();
-  for (int a = 0; a < 4; ++a)
-    touched.push_back({face_slots[face][a], projection.weight[a], 0});
-  normal = projection.normal;
-  depth = -projection.gap;
-  if (group.patch_radius > 0. && projection.along < 0.)
-    spread_over_patch(group, projection, normal, depth);
+  planes.clear();
+  for (const ContactSurface &surface : surfaces)
+    for (const SymmetryPlane &plane : surface.symmetry_planes)
+      if (std::find(planes.begin(), planes.end(), plane) == planes.end())
+        planes.push_back(plane);
+  number_of_slot.assign(n_slots, -1);
 }
 
-void Contact::spread_over_patch(const Group &group,
-                                const FaceProjection &projection, Vec &normal,
-                                double &depth)
+Vec ContactPatch::gather(const NearFaces &node, const Vec held,
+                         const Vec center, const double radius)
 {
-  // Nodes of all faces that look the same way, with their areas, the mean of
-  // the faces' normals, and the mirror images of both in planes of symmetry:
-  // there the half that is not modelled bears its part of the patch.
-  constexpr double cosine = 0.5;
-  const double radius = group.patch_radius;
-  const Vec held = projection.face_normal, p = halo.position[group.slot],
-            centre = p - projection.along * held;
-  images.find(symmetry_planes, centre, radius);
-
-  patch.clear();
-  patch_points.clear();
-  patch_areas.clear();
+  constexpr double cosine = 0.5; // as FaceStanding
+  nodes.clear();
+  points.clear();
+  areas.clear();
   Vec mean = {};
-  for (std::size_t k = group.first_face; k < group.last_face; ++k)
+  for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
-    const auto &corner = face_slots[face_of_group[k]];
+    const auto &corner = faces.corners[faces.face_of_node[k]];
     const Vec x[4] = {halo.position[corner[0]], halo.position[corner[1]],
                       halo.position[corner[2]], halo.position[corner[3]]};
     const Vec area = 0.5 * cross(x[2] - x[0], x[3] - x[1]);
@@ -59,86 +51,67 @@ void Contact::spread_over_patch(const Group &group,
       continue;
     const Vec middle = 0.25 * (x[0] + x[1] + x[2] + x[3]);
     for (unsigned int image = 0; image < images.size(); ++image)
-      mean += cubic_spline(norm(images(middle, image) - centre) / radius) *
+      mean += cubic_spline(norm(images(middle, image) - center) / radius) *
               flipped(area, images.axes(image));
     for (int a = 0; a < 4; ++a)
     {
-      std::ptrdiff_t &number = touched_number[corner[a]];
+      std::ptrdiff_t &number = number_of_slot[corner[a]];
       if (number < 0)
       {
-        number = patch.size();
-        patch.push_back({corner[a], 0., 0});
-        patch_points.push_back(x[a]);
-        patch_areas.push_back(0.);
+        number = nodes.size();
+        nodes.push_back({corner[a], 0., 0});
+        points.push_back(x[a]);
+        areas.push_back(0.);
       }
-      patch_areas[number] += 0.25 * size;
+      areas[number] += 0.25 * size;
     }
   }
-  for (const Touched &t : patch)
-    touched_number[t.slot] = -1;
-  const std::size_t n_real = patch.size();
+  for (const TouchedNode &t : nodes)
+    number_of_slot[t.slot] = -1;
+  return mean;
+}
+
+void ContactPatch::add_images()
+{
+  const std::size_t n_real = nodes.size();
   for (unsigned int image = 1; image < images.size(); ++image)
     for (std::size_t a = 0; a < n_real; ++a)
     {
-      patch.push_back({patch[a].slot, 0., images.axes(image)});
-      patch_points.push_back(images(patch_points[a], image));
-      patch_areas.push_back(patch_areas[a]);
+      nodes.push_back({nodes[a].slot, 0., images.axes(image)});
+      points.push_back(images(points[a], image));
+      areas.push_back(areas[a]);
     }
+}
+
+bool ContactPatch::spread(const NearFaces &node, const double radius,
+                          const FaceProjection &projection,
+                          std::vector<TouchedNode> &touched, Vec &normal,
+                          double &depth)
+{
+  const Vec held = projection.face_normal, p = halo.position[node.slot],
+            center = p - projection.along * held;
+  images.find(planes, center, radius);
+  Vec mean = gather(node, held, center, radius);
+  add_images();
   const double size = norm(mean);
   if (!(size > 0.))
-    return;
+    return false;
   mean = (1. / size) * mean;
-  if (!patch_weights(patch_points, patch_areas, centre, mean, radius,
-                     patch_weight))
-    return;
-  // The gap to the same mean of the nodes that the force goes to, so that
-  // force and gap belong to one energy; past a rim it is let go as before.
+  if (!patch_weights(points, areas, center, mean, radius, weights))
+    return false;
   Vec offset = p;
-  for (std::size_t a = 0; a < patch.size(); ++a)
-    offset -= patch_weight[a] * patch_points[a];
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    offset -= weights[a] * points[a];
+  // Past a rim it is let go as before a single face.
   const double rim = projection.gap / projection.along;
   depth = std::min(1., std::max(0., rim)) * std::max(0., -dot(offset, mean));
   normal = mean;
-  touched.clear();
-  for (std::size_t a = 0; a < patch.size(); ++a)
-    if (patch_weight[a] != 0.)
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    if (weights[a] != 0.)
     {
-      touched.push_back(patch[a]);
-      touched.back().weight = patch_weight[a];
+      touched.push_back(nodes[a]);
+      touched.back().weight = weights[a];
     }
-}
-
-double Contact::compliance(const Group &group) const
-{
-  // An image stands for the node of the other half, whose mass is that of its
-  // own; of a particle on the plane only its share presses here.
-  double sum = 0.;
-  for (const Touched &t : touched)
-    sum += t.weight * t.weight / halo.inertia[t.slot];
-  return group.patch_radius > 0. ? sum / group.share : sum;
-}
-
-Vec Contact::velocity_of_touched() const
-{
-  Vec v = {};
-  for (const Touched &t : touched)
-    v += t.weight * flipped(halo.velocity[t.slot], t.mirrored);
-  return v;
-}
-
-double Contact::shear_limit(const Group &group) const
-{
-  if (!options.limit_by_yield)
-    return options.shear_limit;
-  double its = 0.;
-  for (const Touched &t : touched)
-    its += t.weight * flow_stress[t.slot];
-  return std::min(flow_stress[group.slot], its) / std::sqrt(3.);
-}
-
-void Contact::push_touched(const Vec force, AlignedVector<Vec> &to) const
-{
-  for (const Touched &t : touched)
-    to[t.slot] -= flipped(t.weight * force, t.mirrored);
+  return true;
 }
 } // namespace sabot

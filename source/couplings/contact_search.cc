@@ -1,3 +1,4 @@
+// Bucket search of the faces that nodes may touch.
 #include "sabot/couplings/contact_search.h"
 
 #include "sabot/couplings/box_buckets.h"
@@ -9,15 +10,6 @@ namespace sabot
 {
 namespace
 {
-Box box_of_faces(const Body &body, const ContactSurface &surface)
-{
-  Box box;
-  for (const auto &face : surface.faces)
-    for (const std::size_t a : face)
-      box.add(body.nodes().position[a]);
-  return box;
-}
-
 /** Which faces of its own body a node may meet: those that it faces, from
     outside, and that are no neighbours of its own faces. */
 class OwnFaces
@@ -53,169 +45,224 @@ private:
   const AlignedVector<Vec> &areas;
   std::vector<std::vector<GlobalIndex>> ring; // nodes of a node's faces
 };
-} // namespace
 
-SearchResult search_contacts(const std::vector<Body *> &bodies,
-                             const std::vector<ContactSurface> &surfaces,
-                             const std::vector<ContactPair> &pairs,
-                             const ContactMemories &memories,
-                             const double spacing, const double skin,
-                             const bool with_areas, MPI_Comm communicator)
+/** Quarters of the area vectors of a node's faces [m^2], current. */
+AlignedVector<Vec> node_areas(const NodalState &nodes,
+                              const ContactSurface &surface)
+{
+  AlignedVector<Vec> areas;
+  areas.assign(nodes.size(), Vec{});
+  for (const auto &face : surface.faces)
+  {
+    const Vec area =
+        0.5 * cross(nodes.position[face[2]] - nodes.position[face[0]],
+                    nodes.position[face[3]] - nodes.position[face[1]]);
+    for (const std::size_t a : face)
+      areas[a] += 0.25 * area;
+  }
+  return areas;
+}
+
+/** The boxes around a body's faces and nodes, reach included. */
+struct Extent
+{
+  bool is_used = false; // the body is in a pair
+  Box faces, nodes;
+};
+
+std::vector<Extent> find_extents(const ContactSearch &search,
+                                 const double reach)
+{
+  std::vector<Extent> extents(search.bodies.size());
+  for (const ContactPair &pair : search.pairs)
+    extents[pair.faces_of].is_used = extents[pair.nodes_of].is_used = true;
+  for (std::size_t b = 0; b < extents.size(); ++b)
+  {
+    Extent &extent = extents[b];
+    if (!extent.is_used)
+      continue;
+    const NodalState &nodes = search.bodies[b]->nodes();
+    for (const auto &face : search.surfaces[b].faces)
+      for (const std::size_t a : face)
+        extent.faces.add(nodes.position[a]);
+    for (const std::size_t i : search.surfaces[b].nodes)
+      extent.nodes.add(nodes.position[i]);
+    extent.faces.reduce(search.communicator);
+    extent.nodes.reduce(search.communicator);
+    extent.faces.inflate(reach);
+    extent.nodes.inflate(reach);
+  }
+  return extents;
+}
+
+/** Faces near nodes of other bodies, each from the rank of its lowest node.
+    Collective. */
+std::vector<FaceNodes> gather_faces(const ContactSearch &search,
+                                    const std::vector<Extent> &extents)
 {
   int rank;
-  MPI_Comm_rank(communicator, &rank);
-  // A node that went deeper than a spacing still sees the face it came by.
-  const double deepest_known = 3. * spacing;
-  double deepest = spacing;
-  for (const auto &[key, memory] : memories)
-    deepest = std::max(deepest, std::min(memory.depth, deepest_known));
-  MPI_Allreduce(MPI_IN_PLACE, &deepest, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  const double reach = deepest + skin;
-  std::vector<Box> face_box(bodies.size()), node_box(bodies.size());
-  std::vector<char> used(bodies.size(), 0);
-  for (const ContactPair &pair : pairs)
-    used[pair.faces_of] = used[pair.nodes_of] = 1;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (used[b])
-    {
-      face_box[b] = box_of_faces(*bodies[b], surfaces[b]);
-      for (const std::size_t i : surfaces[b].nodes)
-        node_box[b].add(bodies[b]->nodes().position[i]);
-      face_box[b].reduce(communicator);
-      node_box[b].reduce(communicator);
-      face_box[b].inflate(reach);
-      node_box[b].inflate(reach);
-    }
-
-  // Faces near the other body, from the rank of their lowest node.
+  MPI_Comm_rank(search.communicator, &rank);
   std::vector<FaceNodes> mine;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
+  for (std::size_t b = 0; b < extents.size(); ++b)
   {
-    if (!used[b])
+    if (!extents[b].is_used)
       continue;
-    const NodalState &nodes = bodies[b]->nodes();
-    for (std::size_t f = 0; f < surfaces[b].faces.size(); ++f)
+    const Body &body = *search.bodies[b];
+    const NodalState &nodes = body.nodes();
+    for (std::size_t f = 0; f < search.surfaces[b].faces.size(); ++f)
     {
       FaceNodes face;
       face.body = b;
-      face.id = surfaces[b].face_id[f];
+      face.id = search.surfaces[b].face_id[f];
       Box box;
       for (int a = 0; a < 4; ++a)
       {
-        const std::size_t i = surfaces[b].faces[f][a];
+        const std::size_t i = search.surfaces[b].faces[f][a];
         face.node[a] = nodes.global_id[i];
         face.x[a] = nodes.position[i];
         box.add(face.x[a]);
       }
-      if (bodies[b]->node_owner[*std::min_element(face.node.begin(),
-                                                  face.node.end())] != rank)
+      if (body.node_owner[*std::min_element(face.node.begin(),
+                                            face.node.end())] != rank)
         continue;
-      bool near = false;
-      for (const ContactPair &pair : pairs)
-        near = near ||
-               (pair.faces_of == int(b) && box.meets(node_box[pair.nodes_of]));
-      if (near)
+      if (std::any_of(search.pairs.begin(), search.pairs.end(),
+                      [&](const ContactPair &pair) {
+                        return pair.faces_of == int(b) &&
+                               box.meets(extents[pair.nodes_of].nodes);
+                      }))
         mine.push_back(face);
     }
   }
-  SearchResult result;
-  result.faces = gather_all(mine, communicator);
-  std::sort(result.faces.begin(), result.faces.end(),
+  std::vector<FaceNodes> all = gather_all(mine, search.communicator);
+  std::sort(all.begin(), all.end(),
             [](const FaceNodes &a, const FaceNodes &b)
             { return a.body != b.body ? a.body < b.body : a.id < b.id; });
+  return all;
+}
 
-  // Faces of a body are contiguous.
-  std::vector<Box> boxes(result.faces.size());
-  std::vector<std::size_t> first_face(bodies.size() + 1, 0);
-  for (std::size_t f = 0; f < result.faces.size(); ++f)
+/** Faces of each body by the buckets that they reach into. */
+class FaceBuckets
+{
+public:
+  FaceBuckets(const std::vector<FaceNodes> &faces, const std::size_t n_bodies,
+              const double reach)
+      : boxes(faces.size()), first_face(n_bodies + 1, 0)
   {
-    for (const Vec x : result.faces[f].x)
-      boxes[f].add(x);
-    boxes[f].inflate(reach);
-    ++first_face[result.faces[f].body + 1];
+    // Faces of a body are contiguous.
+    for (std::size_t f = 0; f < faces.size(); ++f)
+    {
+      for (const Vec x : faces[f].x)
+        boxes[f].add(x);
+      boxes[f].inflate(reach);
+      ++first_face[faces[f].body + 1];
+    }
+    for (std::size_t b = 0; b < n_bodies; ++b)
+    {
+      first_face[b + 1] += first_face[b];
+      buckets.emplace_back(std::vector<Box>(boxes.begin() + first_face[b],
+                                            boxes.begin() + first_face[b + 1]),
+                           reach);
+    }
   }
-  std::vector<BoxBuckets> buckets;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
+  bool any_near(const int body, const Vec x) const
   {
-    first_face[b + 1] += first_face[b];
-    buckets.emplace_back(std::vector<Box>(boxes.begin() + first_face[b],
-                                          boxes.begin() + first_face[b + 1]),
-                         reach);
+    const auto near = buckets[body].find(x);
+    return near.first != near.second;
+  }
+  /** Calls @p action(face) for the faces of @p body whose box has @p x,
+      ascending. */
+  template <typename Action>
+  void for_near(const int body, const Vec x, const Action &action) const
+  {
+    const auto near = buckets[body].find(x);
+    for (const std::int32_t *item = near.first; item != near.second; ++item)
+    {
+      const std::int64_t f = first_face[body] + *item;
+      if (boxes[f].contains(x))
+        action(f);
+    }
   }
 
-  std::vector<ContactCandidate> candidates;
-  std::vector<std::int64_t> near_faces;
-  for (const ContactPair &pair : pairs)
+private:
+  std::vector<Box> boxes;
+  std::vector<std::size_t> first_face; // of each body
+  std::vector<BoxBuckets> buckets;     // per body
+};
+
+/** Depth up to which a node that went in still sees the face it came by. */
+double deepest_known(const ContactSearch &search)
+{
+  return 3. * search.spacing;
+}
+
+ContactMemory recall(const ContactMemories &memories, const NodeKey &key)
+{
+  const auto known = std::lower_bound(memories.begin(), memories.end(), key,
+                                      [](const auto &m, const NodeKey &k)
+                                      { return m.first < k; });
+  return known != memories.end() && known->first == key ? known->second
+                                                        : ContactMemory();
+}
+
+/** Append to @p result what the nodes of @p pair that are owned here may
+    touch. */
+void try_nodes(const ContactSearch &search, const ContactPair &pair,
+               const Box &face_box, const FaceBuckets &buckets,
+               SearchResult &result)
+{
+  const Body &body = *search.bodies[pair.nodes_of];
+  const ContactSurface &surface = search.surfaces[pair.nodes_of];
+  const NodalState &nodes = body.nodes();
+  const bool with_itself = pair.faces_of == pair.nodes_of;
+  AlignedVector<Vec> areas;
+  if (search.with_areas || with_itself)
+    areas = node_areas(nodes, surface);
+  const OwnFaces own_faces(body, with_itself ? surface : ContactSurface(),
+                           areas);
+  std::vector<std::int64_t> &near = result.face_of_candidate;
+  const auto try_node = [&](const std::size_t i, const double share)
   {
-    const Body &body = *bodies[pair.nodes_of];
-    const NodalState &nodes = body.nodes();
-    AlignedVector<Vec> areas;
-    const bool with_itself = pair.faces_of == pair.nodes_of;
-    if (with_areas || with_itself)
-    {
-      areas.assign(nodes.size(), Vec{});
-      for (const auto &face : surfaces[pair.nodes_of].faces)
-      {
-        const Vec area =
-            0.5 * cross(nodes.position[face[2]] - nodes.position[face[0]],
-                        nodes.position[face[3]] - nodes.position[face[1]]);
-        for (const std::size_t a : face)
-          areas[a] += 0.25 * area;
-      }
-    }
-    const OwnFaces own_faces(
-        body, with_itself ? surfaces[pair.nodes_of] : ContactSurface(), areas);
-    const auto try_node = [&](const std::size_t i, const double share)
-    {
-      const Vec x = nodes.position[i];
-      if (!face_box[pair.faces_of].contains(x))
-        return;
-      const auto near = buckets[pair.faces_of].find(x);
-      if (near.first == near.second)
-        return;
-      const NodeKey key{pair.nodes_of, 0, nodes.global_id[i]};
-      const auto known = std::lower_bound(memories.begin(), memories.end(), key,
-                                          [](const auto &m, const NodeKey &k)
-                                          { return m.first < k; });
-      ContactMemory memory;
-      if (known != memories.end() && known->first == key)
-        memory = known->second;
-      const double my_reach =
-          std::clamp(memory.depth, spacing, deepest_known) + skin;
-      const std::int64_t first = near_faces.size();
-      for (const std::int32_t *item = near.first; item != near.second; ++item)
-      {
-        const std::int64_t f = first_face[pair.faces_of] + *item;
-        const FaceNodes &face = result.faces[f];
-        if (!boxes[f].contains(x) || is_farther(x, face.x, my_reach))
-          continue;
-        const FaceProjection projection = project_on_face(x, face.x);
-        if (projection.distance_square < my_reach * my_reach &&
-            (!with_itself || own_faces.may_meet(i, face, projection, memory)))
-          near_faces.push_back(f);
-      }
-      const std::int64_t last = near_faces.size();
-      if (last > first)
-        candidates.push_back(
-            {key, share, first, last, memory, with_areas ? areas[i] : Vec{}});
-    };
-    if (pair.loose_nodes_only)
-    {
-      if (body.particles() != nullptr)
-        for (const std::size_t i : body.particles()->debris().nodes)
-          if (nodes.inertia[i] > 0.) // followers stay with their leaders
-            try_node(i, 1.);
-    }
-    else
-    {
-      const ContactSurface &surface = surfaces[pair.nodes_of];
-      for (std::size_t k = 0; k < surface.nodes.size(); ++k)
-        try_node(surface.nodes[k],
-                 surface.node_share.empty() ? 1. : surface.node_share[k]);
-    }
-  }
-  result.candidates = gather_all(candidates, communicator);
-  result.face_of_candidate = gather_all(near_faces, communicator);
+    const Vec x = nodes.position[i];
+    if (!face_box.contains(x) || !buckets.any_near(pair.faces_of, x))
+      return;
+    const NodeKey key{pair.nodes_of, 0, nodes.global_id[i]};
+    const ContactMemory memory = recall(search.memories, key);
+    const double reach =
+        std::clamp(memory.depth, search.spacing, deepest_known(search)) +
+        search.skin;
+    const std::int64_t first = near.size();
+    buckets.for_near(
+        pair.faces_of, x,
+        [&](const std::int64_t f)
+        {
+          const FaceNodes &face = result.faces[f];
+          if (is_farther(x, face.x, reach))
+            return;
+          const FaceProjection projection = project_on_face(x, face.x);
+          if (projection.distance_square < reach * reach &&
+              (!with_itself || own_faces.may_meet(i, face, projection, memory)))
+            near.push_back(f);
+        });
+    const std::int64_t last = near.size();
+    if (last > first)
+      result.candidates.push_back({key, share, first, last, memory,
+                                   search.with_areas ? areas[i] : Vec{}});
+  };
+  if (!pair.loose_nodes_only)
+    for (std::size_t k = 0; k < surface.nodes.size(); ++k)
+      try_node(surface.nodes[k],
+               surface.node_share.empty() ? 1. : surface.node_share[k]);
+  else if (body.particles() != nullptr)
+    for (const std::size_t i : body.particles()->debris().nodes)
+      if (nodes.inertia[i] > 0.) // followers stay with their leaders
+        try_node(i, 1.);
+}
+
+/** What all ranks found, in one order. Collective. */
+void merge(SearchResult &result, MPI_Comm communicator)
+{
+  result.candidates = gather_all(result.candidates, communicator);
+  result.face_of_candidate = gather_all(result.face_of_candidate, communicator);
   // Lists of later ranks moved to the back.
   std::int64_t first = 0;
   for (ContactCandidate &c : result.candidates)
@@ -232,6 +279,23 @@ SearchResult search_contacts(const std::vector<Body *> &bodies,
               return a.node == b.node ? body_of_faces(a) < body_of_faces(b)
                                       : a.node < b.node;
             });
+}
+} // namespace
+
+SearchResult ContactSearch::find() const
+{
+  double deepest = spacing;
+  for (const auto &[key, memory] : memories)
+    deepest = std::max(deepest, std::min(memory.depth, deepest_known(*this)));
+  MPI_Allreduce(MPI_IN_PLACE, &deepest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  const double reach = deepest + skin;
+  const std::vector<Extent> extents = find_extents(*this, reach);
+  SearchResult result;
+  result.faces = gather_faces(*this, extents);
+  const FaceBuckets buckets(result.faces, bodies.size(), reach);
+  for (const ContactPair &pair : pairs)
+    try_nodes(*this, pair, extents[pair.faces_of].faces, buckets, result);
+  merge(result, communicator);
   return result;
 }
 

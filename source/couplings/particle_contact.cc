@@ -1,3 +1,4 @@
+// Contact between bodies of particles.
 #include "sabot/couplings/particle_contact.h"
 
 #include "sabot/couplings/contact_search.h"
@@ -117,19 +118,19 @@ void ParticleContact::search()
     members.insert(members.end(), begin, end);
   }
   build_halo();
-  if (options.limit_by_yield)
+  if (options.shear_strength.needs_flow_stress())
     halo.find_flow_stress(flow_stress);
 }
 
 double ParticleContact::largest_friction(const Group &group,
                                          const Slots &at) const
 {
-  if (!options.limit_by_yield)
-    return options.shear_limit * group.area;
+  if (!options.shear_strength.needs_flow_stress())
+    return options.shear_strength.value() * group.area;
   double its = 0.;
   for (const NearParticle &p : near)
     its += p.weight * flow_stress[p.slot];
-  return std::min(flow_stress[at.node], its) / std::sqrt(3.) * group.area;
+  return ShearStrength::of_metals(flow_stress[at.node], its) * group.area;
 }
 
 void ParticleContact::build_halo()
@@ -199,12 +200,79 @@ Standing ParticleContact::locate(const Group &group, const Slots &at)
   return stand_in_volume(near, volume);
 }
 
-void ParticleContact::push(const Slots &at, const Vec of_node,
-                           AlignedVector<Vec> &force)
+void ParticleContact::find_motion(const Slots &at, ContactPoint &point) const
 {
-  force[at.node] += of_node;
+  // A particle and its images move as one.
+  double compliance = 1. / halo.inertia[at.node];
+  Vec v = halo.velocity[at.node];
+  for (std::size_t p = 0; p < near.size();)
+  {
+    const std::size_t j = near[p].slot;
+    Vec part = {};
+    for (; p < near.size() && near[p].slot == j; ++p)
+    {
+      part += near[p].weight * flipped(point.normal, near[p].turned);
+      v -= near[p].weight * flipped(halo.velocity[j], near[p].turned);
+    }
+    compliance += norm_square(part) / halo.inertia[j];
+  }
+  point.velocity = v;
+  point.reduced_mass = 1. / compliance;
+}
+
+void ParticleContact::press(const std::size_t number, const double dt)
+{
+  Group &group = groups[number];
+  const Slots &at = slots[number];
+  const Standing standing = locate(group, at);
+  ContactMemory &memory = group.memory;
+  n_deep += standing.is_deep && at.node < halo.n_owned();
+  if (standing.fade > 0.)
+    memory.side = standing.normal;
+  if (dt <= 0.)
+  {
+    if (standing.gap > -1e-6 * group.spacing)
+      memory.release();
+    return;
+  }
+  if (standing.fade <= 0. || standing.gap >= 0.)
+    return memory.release();
+  ContactPoint point;
+  point.item = number;
+  point.normal = standing.normal;
+  point.fade = standing.fade;
+  find_motion(at, point);
+  point.depth =
+      memory.effective_depth(-standing.gap, 2. * norm(point.velocity) * dt);
+  if (point.depth <= 0.)
+    return;
+  point.stiffness =
+      options.stable_stiffness(group.stiffness, point.reduced_mass, dt);
+  point.area = group.area;
+  point.largest_friction = largest_friction(group, at);
+  point.memory = &memory;
+  point.first_touched = touched.size();
   for (const NearParticle &p : near)
-    force[p.slot] -= p.weight * flipped(of_node, p.turned);
+    if (p.weight != 0.)
+      touched.push_back(p);
+  point.last_touched = touched.size();
+  points.add(point);
+  penetration_over_spacing =
+      std::max(penetration_over_spacing, point.depth / group.spacing);
+}
+
+void ParticleContact::push(const ContactPoint &point)
+{
+  const std::size_t node = slots[point.item].node;
+  const Vec normal = point.normal_force(), friction = point.friction_force();
+  forces.normal[node] += normal;
+  forces.friction[node] += friction;
+  for (std::size_t i = point.first_touched; i < point.last_touched; ++i)
+  {
+    const NearParticle &p = touched[i];
+    forces.normal[p.slot] -= p.weight * flipped(normal, p.turned);
+    forces.friction[p.slot] -= p.weight * flipped(friction, p.turned);
+  }
 }
 
 void ParticleContact::add_forces(const double dt)
@@ -212,60 +280,13 @@ void ParticleContact::add_forces(const double dt)
   update_halo();
   forces.clear();
   n_deep = 0;
+  points.clear();
+  touched.clear();
   for (std::size_t g = 0; g < groups.size(); ++g)
-  {
-    Group &group = groups[g];
-    const Slots &at = slots[g];
-    const Standing standing = locate(group, at);
-    ContactMemory &memory = group.memory;
-    n_deep += standing.is_deep && at.node < halo.n_owned();
-    if (standing.fade > 0.)
-      memory.side = standing.normal;
-    if (dt <= 0.)
-    {
-      // Where everything starts: bodies may touch already.
-      if (standing.gap > -1e-6 * group.spacing)
-        memory.release();
-      continue;
-    }
-    if (standing.fade <= 0. || standing.gap >= 0.)
-    {
-      memory.release();
-      continue;
-    }
-    // A particle and its images move as one.
-    double compliance = 1. / halo.inertia[at.node];
-    Vec v = halo.velocity[at.node];
-    for (std::size_t p = 0; p < near.size();)
-    {
-      const std::size_t j = near[p].slot;
-      Vec part = {};
-      for (; p < near.size() && near[p].slot == j; ++p)
-      {
-        part += near[p].weight * flipped(standing.normal, near[p].turned);
-        v -= near[p].weight * flipped(halo.velocity[j], near[p].turned);
-      }
-      compliance += norm_square(part) / halo.inertia[j];
-    }
-    const double depth =
-        memory.effective_depth(-standing.gap, 2. * norm(v) * dt);
-    if (depth <= 0.)
-      continue;
-    const double reduced_mass = 1. / compliance;
-    const double k = std::min(group.stiffness, options.stability_fraction *
-                                                   reduced_mass / (dt * dt));
-    const ContactForces force =
-        contact_forces(options, k, reduced_mass, depth, v, standing.normal,
-                       largest_friction(group, at), dt);
-    const double part =
-        standing.fade * backed_part(memory,
-                                    standing.fade * k * depth * standing.normal,
-                                    v, k, dt);
-    push(at, part * force.normal, forces.normal);
-    push(at, part * force.friction, forces.friction);
-    penetration_over_spacing =
-        std::max(penetration_over_spacing, depth / group.spacing);
-  }
+    press(g, dt);
+  points.find_forces(options, dt);
+  for (const ContactPoint &point : points)
+    push(point);
   forces.add_to_bodies(halo);
 }
 

@@ -1,3 +1,4 @@
+// Contact between single particles that came loose.
 #include "sabot/couplings/self_contact.h"
 
 #include "sabot/couplings/contact_search.h"
@@ -115,7 +116,8 @@ void SelfContact::search()
           pair.distance = std::min(options.contact_distance * h, distance);
           pair.stiffness = options.stiffness_scale * h *
                            std::min(mine_view.bulk_modulus, its.bulk_modulus);
-          pair.largest_friction = h * h * options.shear_limit;
+          pair.area = h * h;
+          pair.largest_friction = pair.area * options.shear_strength.value();
           found.push_back(pair);
         });
   }
@@ -131,7 +133,7 @@ void SelfContact::search()
   }
   pairs = std::move(found);
   build_halo();
-  if (!options.limit_by_yield)
+  if (!options.shear_strength.needs_flow_stress())
     return;
   std::vector<double> flow_stress;
   halo.find_flow_stress(flow_stress);
@@ -163,12 +165,8 @@ void SelfContact::build_halo()
   forces.resize(halo.size());
 }
 
-void SelfContact::add_forces(const double dt)
+void SelfContact::soften(const double dt)
 {
-  halo.update();
-  forces.clear();
-  if (dt <= 0.)
-    return;
   // The stiffness of all that touches a particle bounds its frequency; that of
   // particles owned here is complete.
   std::fill(softening.begin(), softening.end(), 0.);
@@ -182,26 +180,50 @@ void SelfContact::add_forces(const double dt)
         std::min(1., 0.5 * options.stability_fraction * halo.inertia[s] /
                          (dt * dt * std::max(softening[s], 1e-300)));
   halo.update_ghosts(softening.data());
-  for (const Pair &pair : pairs)
+}
+
+void SelfContact::add_forces(const double dt)
+{
+  halo.update();
+  forces.clear();
+  if (dt <= 0.)
+    return;
+  soften(dt);
+  points.clear();
+  for (std::size_t number = 0; number < pairs.size(); ++number)
   {
+    const Pair &pair = pairs[number];
     const std::size_t a = pair.slot[0], b = pair.slot[1];
     const Vec offset = halo.position[b] - halo.position[a];
     const double distance = norm(offset);
     if (distance >= pair.distance || distance == 0.)
       continue;
-    const double reduced_mass =
-        1. / (1. / halo.inertia[a] + 1. / halo.inertia[b]);
-    const double k = pair.stiffness * std::min(softening[a], softening[b]);
-    const ContactForces on_b =
-        contact_forces(options, k, reduced_mass, pair.distance - distance,
-                       halo.velocity[b] - halo.velocity[a],
-                       (1. / distance) * offset, pair.largest_friction, dt);
-    forces.normal[a] -= on_b.normal;
-    forces.normal[b] += on_b.normal;
-    forces.friction[a] -= on_b.friction;
-    forces.friction[b] += on_b.friction;
+    ContactPoint on_b;
+    on_b.item = number;
+    on_b.normal = (1. / distance) * offset;
+    on_b.velocity = halo.velocity[b] - halo.velocity[a];
+    on_b.depth = pair.distance - distance;
+    on_b.stiffness = pair.stiffness * std::min(softening[a], softening[b]);
+    on_b.reduced_mass = 1. / (1. / halo.inertia[a] + 1. / halo.inertia[b]);
+    on_b.area = pair.area;
+    on_b.largest_friction = pair.largest_friction;
+    points.add(on_b);
   }
+  points.find_forces(options, dt);
+  for (const ContactPoint &point : points)
+    push(point);
   forces.add_to_bodies(halo);
+}
+
+void SelfContact::push(const ContactPoint &on_b)
+{
+  const std::size_t a = pairs[on_b.item].slot[0], b = pairs[on_b.item].slot[1];
+  const Vec normal = on_b.pressing * on_b.normal,
+            friction = -on_b.drag * on_b.sliding;
+  forces.normal[a] -= normal;
+  forces.normal[b] += normal;
+  forces.friction[a] -= friction;
+  forces.friction[b] += friction;
 }
 
 void SelfContact::accumulate_work(const double half_dt)

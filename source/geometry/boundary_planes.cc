@@ -1,3 +1,4 @@
+// Which boundary faces lie in planes across an axis.
 #include "sabot/geometry/boundary_planes.h"
 
 #include "sabot/kernels/vec.h"
@@ -6,12 +7,12 @@
 
 namespace sabot
 {
-int plane_axis(const HexMesh &mesh, const unsigned int id)
+std::optional<int> plane_axis(const HexMesh &mesh, const unsigned int id)
 {
   // A face of the plane has all its area across the axis and its corners at
   // the height of the first.
   constexpr double tolerance = 1e-6;
-  int axis = -1;
+  std::optional<int> axis;
   double height = 0.;
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {
@@ -25,18 +26,18 @@ int plane_axis(const HexMesh &mesh, const unsigned int id)
     }
     const Vec area = 0.5 * cross(x[2] - x[0], x[3] - x[1]);
     const double size = std::sqrt(norm(area));
-    if (axis < 0)
+    if (!axis)
     {
       for (int d = 0; d < 3; ++d)
         if (std::abs(area[d]) > (1. - tolerance) * norm(area))
           axis = d;
-      if (axis < 0)
-        return -1;
-      height = x[0][axis];
+      if (!axis)
+        return std::nullopt;
+      height = x[0][*axis];
     }
     for (int a = 0; a < 4; ++a)
-      if (!(std::abs(x[a][axis] - height) < tolerance * size))
-        return -1;
+      if (!(std::abs(x[a][*axis] - height) < tolerance * size))
+        return std::nullopt;
   }
   return axis;
 }

@@ -1,5 +1,7 @@
+// Particles on the nodes of hexahedra.
 #include "sabot/geometry/boundary_planes.h"
 #include "sabot/geometry/particle_cloud.h"
+#include "sabot/kernels/eigen.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -54,15 +56,12 @@ Eigen::Matrix3d edge_moment(const std::array<Vec, 8> &x)
   }
   return moment;
 }
-} // namespace
 
-ParticleCloud make_mesh_cloud(const HexMesh &mesh)
+/** Volumes of the particles, and their shapes and mean spacing. */
+void add_volumes(const HexMesh &mesh, ParticleCloud &cloud)
 {
   const std::size_t n = mesh.nodes.size();
-  ParticleCloud cloud;
-  cloud.position = mesh.nodes;
   cloud.volume.assign(n, 0.);
-  cloud.on_face.assign(n, 0);
   std::vector<Eigen::Matrix3d> moment(n, Eigen::Matrix3d::Zero());
   std::vector<int> n_cells(n, 0);
   for (const auto &cell : mesh.cells)
@@ -87,16 +86,17 @@ ParticleCloud make_mesh_cloud(const HexMesh &mesh)
   {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment[i] /
                                                           n_cells[i]);
-    const Eigen::Matrix3d root = solver.operatorSqrt();
-    Mat shape = Mat::zero();
-    for (int d = 0; d < 3; ++d)
-      for (int e = 0; e < 3; ++e)
-        shape.set(d, e, root(d, e));
+    const Mat shape = from_eigen(solver.operatorSqrt());
     cloud.shape.push_back(shape);
     mean += std::cbrt(determinant(shape)) / n;
   }
   cloud.spacing = {{mean, mean, mean}};
+}
 
+/** The particles' parts in the faces of the boundary, and which faces those
+    are. */
+void add_faces(const HexMesh &mesh, ParticleCloud &cloud)
+{
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {
     const auto &face = mesh.boundary_faces[f];
@@ -111,7 +111,7 @@ ParticleCloud make_mesh_cloud(const HexMesh &mesh)
     for (const GlobalIndex a : face)
       cloud.face_shares.push_back({std::size_t(a), mesh.boundary_id[f], area});
   }
-
+  cloud.on_face.assign(mesh.nodes.size(), 0);
   cloud.face_axis.clear();
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {
@@ -119,10 +119,20 @@ ParticleCloud make_mesh_cloud(const HexMesh &mesh)
     if (id >= ParticleCloud::n_faces)
       continue;
     while (cloud.face_axis.size() <= id)
-      cloud.face_axis.push_back(plane_axis(mesh, cloud.face_axis.size()));
+      cloud.face_axis.push_back(
+          plane_axis(mesh, cloud.face_axis.size()).value_or(-1));
     for (const GlobalIndex a : mesh.boundary_faces[f])
       cloud.on_face[a] |= 1u << id;
   }
+}
+} // namespace
+
+ParticleCloud make_mesh_cloud(const HexMesh &mesh)
+{
+  ParticleCloud cloud;
+  cloud.position = mesh.nodes;
+  add_volumes(mesh, cloud);
+  add_faces(mesh, cloud);
   return cloud;
 }
 } // namespace sabot

@@ -1,3 +1,4 @@
+// Meshes that other programs have made: reading, and how good they are.
 #include "sabot/geometry/mesh_import.h"
 
 #include "sabot/base/error.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -47,11 +49,9 @@ std::string reason(const dealii::ExceptionBase &e)
   }
   return "it is not as the format wants it";
 }
-} // namespace
 
-HexMesh read_mesh(const std::string &file, const double unit,
-                  const std::array<double, 3> &origin, const int material_id,
-                  const std::string &path)
+/** The ending, checked to name a format that can be read. */
+std::string format_of(const std::string &file, const std::string &path)
 {
   const std::string format = extension(file);
   if (format == "e" || format == "ex2" || format == "exo" || format == "g" ||
@@ -64,11 +64,17 @@ HexMesh read_mesh(const std::string &file, const double unit,
     throw InputError(path, "\"" + file +
                                "\": the ending names no known format; use "
                                ".msh (gmsh), .inp (Abaqus) or .vtk");
+  return format;
+}
+
+void read_grid(const std::string &file, const std::string &path,
+               dealii::Triangulation<3> &grid)
+{
+  const std::string format = format_of(file, path);
   std::ifstream stream(file);
   if (!stream)
     throw InputError(path, "cannot open the mesh file \"" + file + "\"");
-  dealii::Triangulation<3> whole;
-  dealii::GridIn<3> reader(whole);
+  dealii::GridIn<3> reader(grid);
   try
   {
     if (format == "msh")
@@ -88,6 +94,16 @@ HexMesh read_mesh(const std::string &file, const double unit,
     throw InputError(path, "cannot read the mesh file \"" + file +
                                "\": it is not as the format wants it");
   }
+}
+} // namespace
+
+HexMesh read_mesh(const std::string &file, const double unit,
+                  const std::array<double, 3> &origin,
+                  const std::optional<unsigned int> material_id,
+                  const std::string &path)
+{
+  dealii::Triangulation<3> whole;
+  read_grid(file, path, whole);
   std::set<typename dealii::Triangulation<3>::active_cell_iterator> others;
   for (const auto &cell : whole.active_cell_iterators())
   {
@@ -95,15 +111,14 @@ HexMesh read_mesh(const std::string &file, const double unit,
       throw InputError(path, "\"" + file +
                                  "\" has cells that are not hexahedra; mesh "
                                  "the body with hexahedra only");
-    if (material_id >= 0 && int(cell->material_id()) != material_id)
+    if (material_id && cell->material_id() != *material_id)
       others.insert(cell);
   }
   if (whole.n_active_cells() == others.size())
-    throw InputError(
-        path, "\"" + file + "\" has no cells" +
-                  (material_id >= 0
-                       ? " with the material id " + std::to_string(material_id)
-                       : std::string()));
+    throw InputError(path, "\"" + file + "\" has no cells" +
+                               (material_id ? " with the material id " +
+                                                  std::to_string(*material_id)
+                                            : std::string()));
   dealii::Triangulation<3> part;
   if (!others.empty())
     dealii::GridGenerator::create_triangulation_with_removed_cells(
@@ -120,6 +135,7 @@ MeshQuality measure_quality(const HexMesh &mesh)
   // The neighbours of each corner, right-handed, in VTK order.
   constexpr int next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                               {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   MeshQuality quality;
   for (const auto &cell : mesh.cells)
   {
@@ -128,7 +144,7 @@ MeshQuality measure_quality(const HexMesh &mesh)
       const auto &p = mesh.nodes[cell[a]];
       return vec(p[0], p[1], p[2]);
     };
-    double shortest = 1e300, longest = 0.;
+    double shortest = infinite, longest = 0.;
     for (int a = 0; a < 8; ++a)
     {
       Vec edge[3];
@@ -150,8 +166,8 @@ MeshQuality measure_quality(const HexMesh &mesh)
         quality.worst = {{x[0], x[1], x[2]}};
       }
     }
-    quality.aspect_ratio = std::max(quality.aspect_ratio,
-                                    shortest > 0. ? longest / shortest : 1e300);
+    quality.aspect_ratio = std::max(
+        quality.aspect_ratio, shortest > 0. ? longest / shortest : infinite);
   }
   return quality;
 }

@@ -1,3 +1,4 @@
+// Particles on the lattice of a box, and what faces do to particles.
 #include "sabot/geometry/particle_cloud.h"
 
 #include <deal.II/base/point.h>

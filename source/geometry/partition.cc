@@ -1,3 +1,4 @@
+// Recursive coordinate bisection by Zoltan.
 #include "sabot/geometry/partition.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Balls and projectiles of hexahedra: six blocks of shells around a cube.
 #include "sabot/geometry/round_bodies.h"
 
 #include "sabot/geometry/mesh_extraction.h"

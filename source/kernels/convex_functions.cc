@@ -1,3 +1,4 @@
+// Newton iteration for convex (generalized meshfree) functions at one point.
 #include "sabot/kernels/convex_functions.h"
 
 #include <cmath>
@@ -52,38 +53,31 @@ void ConvexFunctions::weights(const Vec lambda, const double length)
     value[j] = prior[j] * basis_value[j] / sum;
 }
 
-bool ConvexFunctions::evaluate(const double length)
+Vec ConvexFunctions::offset() const
+{
+  Vec r = {};
+  for (std::size_t j = 0; j < prior.size(); ++j)
+    r += value[j] * distance[j];
+  return r;
+}
+
+Mat ConvexFunctions::tangent(const double length) const
 {
   const std::size_t n = prior.size();
-  value.resize(n);
-  gradient.resize(n);
-  basis_value.resize(n);
-  basis_slope.resize(n);
-  if (n < 4)
-    return false;
+  Mat A = Mat::zero();
+  Vec mean = {};
+  for (std::size_t j = 0; j < n; ++j)
+    mean += prior[j] * basis_slope[j] / sum / length * distance[j];
+  for (std::size_t j = 0; j < n; ++j)
+    add_outer(A, distance[j],
+              prior[j] * basis_slope[j] / sum / length * distance[j] -
+                  value[j] * mean);
+  return A;
+}
 
-  const auto offset = [&]
-  {
-    Vec r = {};
-    for (std::size_t j = 0; j < n; ++j)
-      r += value[j] * distance[j];
-    return r;
-  };
-  // Change of the offset with lambda, sum D (x) dPsi/dlambda.
-  const auto tangent = [&]
-  {
-    Mat A = Mat::zero();
-    Vec mean = {};
-    for (std::size_t j = 0; j < n; ++j)
-      mean += prior[j] * basis_slope[j] / sum / length * distance[j];
-    for (std::size_t j = 0; j < n; ++j)
-      add_outer(A, distance[j],
-                prior[j] * basis_slope[j] / sum / length * distance[j] -
-                    value[j] * mean);
-    return A;
-  };
-
-  Vec lambda = {};
+bool ConvexFunctions::solve(const double length, Vec &lambda)
+{
+  lambda = Vec{};
   weights(lambda, length);
   const Vec target = inset * offset();
   Vec miss = offset() - target;
@@ -91,7 +85,7 @@ bool ConvexFunctions::evaluate(const double length)
   {
     if (i == max_iterations)
       return false;
-    const Mat A = tangent();
+    const Mat A = tangent(length);
     double det;
     const Mat A_inverse = inverse(A, det);
     if (!(std::abs(det) > 1e-14 * length * length * length))
@@ -108,20 +102,38 @@ bool ConvexFunctions::evaluate(const double length)
         break;
     }
     if (halving == max_halvings)
+    {
+      // Round-off ends the descent: lambda is as good as it gets.
+      weights(lambda, length);
       return norm(miss) < 1e-8 * length;
+    }
     lambda += factor * step;
     miss = next;
   }
+  return true;
+}
 
-  // Their spread, not the tangent's: the arctangent's slope may be small.
+bool ConvexFunctions::spans_space(const double length) const
+{
   const Vec centre = offset();
   Mat variance = Mat::zero();
-  for (std::size_t j = 0; j < n; ++j)
+  for (std::size_t j = 0; j < prior.size(); ++j)
     add_outer(variance, value[j] * (distance[j] - centre),
               distance[j] - centre);
   const double l2 = length * length;
-  if (!(determinant(variance) >
-        least_variance * least_variance * least_variance * l2 * l2 * l2))
+  return determinant(variance) >
+         least_variance * least_variance * least_variance * l2 * l2 * l2;
+}
+
+bool ConvexFunctions::evaluate(const double length)
+{
+  const std::size_t n = prior.size();
+  value.resize(n);
+  gradient.resize(n);
+  basis_value.resize(n);
+  basis_slope.resize(n);
+  Vec lambda;
+  if (n < 4 || !solve(length, lambda) || !spans_space(length))
     return false;
 
   Vec mean_x = {}, mean_lambda = {};
@@ -138,7 +150,7 @@ bool ConvexFunctions::evaluate(const double length)
     gradient[j] -= value[j] * mean_x;
     add_outer(B, distance[j], gradient[j]);
   }
-  const Mat slope_of_lambda = -1. * (inverse(tangent()) * B);
+  const Mat slope_of_lambda = -1. * (inverse(tangent(length)) * B);
   const Mat transposed = transpose(slope_of_lambda);
   for (std::size_t j = 0; j < n; ++j)
     gradient[j] +=

@@ -181,7 +181,7 @@ CarvedZone BodyAssembly::record(const Carving &carving) const
   if (size != cell_size.end())
     zone.spacing.fill(size->second);
   else
-    zone.spacing = bodies[zone.zone]->particles()->lattice_spacing();
+    zone.spacing = bodies[zone.zone]->facts().spacing;
   return zone;
 }
 } // namespace sabot

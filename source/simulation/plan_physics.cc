@@ -30,7 +30,8 @@ void judge_heat(const Scene &scene, PhysicsPlan &plan)
 {
   double spacing = never;
   for (const PlannedBody &body : plan.bodies)
-    spacing = std::min(spacing, body.facts.spacing);
+    for (const double h : body.facts.spacing)
+      spacing = std::min(spacing, h);
   const double fourier =
       largest_diffusivity * scene.settings.end_time / (spacing * spacing);
   plan.numbers.push_back(
@@ -174,10 +175,8 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
 {
   bool self_contact = false, contact = false;
   for (const auto &coupling : scene.couplings)
-  {
-    self_contact = self_contact || coupling->kind() == "self-contact";
-    contact = contact || coupling->kind() == "contact";
-  }
+    for (const auto &[a, b] : coupling->holds_apart())
+      (a == b ? self_contact : contact) = true;
   for (const PlannedBody &body : plan.bodies)
     if (body.facts.is_particles && body.facts.may_fail && !self_contact)
       plan.warnings.push_back("bonds of \"" + body.name +

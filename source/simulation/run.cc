@@ -126,6 +126,8 @@ void Run::describe_scene()
   for (const auto &body : scene.bodies)
     log.line("  body " + body->name + ": " + std::to_string(body->n_items()) +
              " " + body->item_name());
+  for (const std::string &note : scene.notes)
+    log.line("  " + note);
   for (const std::string &warning : scene.warnings)
     log.warning(warning);
   for (const auto &coupling : scene.couplings)

@@ -1,9 +1,12 @@
 // A scene from its file: loops over what its lists name.
 #include "sabot/simulation/scene.h"
 
+#include "sabot/couplings/coupling_builder.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/simulation/body_assembly.h"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 namespace sabot
@@ -19,11 +22,12 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   assembly.build(names_of("bodies"));
   bodies = std::move(assembly.bodies);
   zones = std::move(assembly.zones);
-  notes = std::move(assembly.notes);
+  notes = file.notes();
+  notes.insert(notes.end(), assembly.notes.begin(), assembly.notes.end());
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
   check_overlaps(*this, file);
-  build_couplings(file);
+  build_couplings();
   build_outputs();
   build_quantities();
 }
@@ -60,6 +64,51 @@ void Scene::build_materials(const ParameterFile &file)
                     material->warnings.end());
     materials[name] = std::move(material);
   }
+}
+
+void Scene::build_couplings()
+{
+  struct Listed
+  {
+    std::string name;
+    std::unique_ptr<CouplingBuilder> builder;
+  };
+  std::vector<Listed> listed; // in the order of building
+  for (const std::string &name : names_of("couplings"))
+  {
+    const Entered entered(prm, "Couplings", name);
+    const std::string type = prm.get("Type");
+    listed.push_back({name, Registry<CouplingBuilder>::get(
+                                "Couplings/" + name + "/Type", type)
+                                .make()});
+  }
+  std::stable_sort(listed.begin(), listed.end(),
+                   [](const Listed &a, const Listed &b)
+                   { return a.builder->order() < b.builder->order(); });
+
+  CouplingContext context{
+      body_pointers(),
+      [this](const std::string &path, const std::string &name)
+      { return body_index(path, name); },
+      communicator,
+      {},
+      {}};
+  std::vector<std::unique_ptr<Coupling>> last;
+  for (const Listed &item : listed)
+  {
+    const Entered entered(prm, "Couplings", item.name);
+    auto &list = item.builder->acts_last() ? last : couplings;
+    for (auto &coupling :
+         item.builder->build(prm, "Couplings/" + item.name, item.name, context))
+      list.push_back(std::move(coupling));
+  }
+  std::move(last.begin(), last.end(), std::back_inserter(couplings));
+
+  for (const CarvedZone &zone : zones)
+    if (context.tied.count({zone.zone, zone.host}) == 0)
+      warnings.push_back("body \"" + bodies[zone.zone]->name +
+                         "\" is carved from \"" + bodies[zone.host]->name +
+                         "\" but not tied to it");
 }
 
 void Scene::build_outputs()
@@ -122,7 +171,7 @@ std::vector<std::pair<std::string, std::string>> Scene::knobs() const
   {
     const std::size_t slash = knob.first.find('/');
     bool is_listed = slash == std::string::npos;
-    for (const std::string list : {"bodies", "couplings", "outputs"})
+    for (const std::string list : {"bodies", "couplings"})
       for (const std::string &name : names_of(list))
         is_listed = is_listed || knob.first.compare(slash + 1, name.size() + 1,
                                                     name + "/") == 0;

@@ -1,5 +1,6 @@
 // What a scene file may set: every entry with its meaning.
 #include "sabot/bodies/discretization.h"
+#include "sabot/couplings/coupling_builder.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@ namespace sabot
 namespace
 {
 const Pattern names = name_list();
+const std::string standard_discretization = "FEM";
 
 void declare_top(Parameters &prm)
 {
@@ -46,7 +48,8 @@ void declare_top(Parameters &prm)
 void declare_body(Parameters &prm, const std::string &discretization,
                   const std::string &geometry)
 {
-  Registry<Discretization>::declare_choice(prm, "Discretization", "FEM", "");
+  Registry<Discretization>::declare_knob(prm, "Discretization",
+                                         standard_discretization, "");
   Registry<Shape>::declare_choice(
       prm, "Geometry", "box",
       "Shape of the body, with the same entries for FEM, SPG and rigid "
@@ -67,147 +70,124 @@ void declare_body(Parameters &prm, const std::string &discretization,
     d->make()->declare(prm, shape.get());
 }
 
-void declare_coupling(Parameters &prm, const std::string &type)
+/** Names of the subsections of @p section that the file has; each name in its
+    list must have one. Others may stand unused (an including file can shorten
+    a list), but are read as strictly. */
+std::vector<std::string> present_names(const ParameterFile &file,
+                                       const std::string &section)
 {
-  prm.declare_entry("Type", "contact", one_of("tie|contact|self-contact"),
-                    "tie: nodes of one body move with the surface of another; "
-                    "contact: nodes against the faces of FEM bodies and the "
-                    "surfaces of particles, with friction; self-contact: "
-                    "debris of SPG bodies, surfaces of FEM bodies.");
-  if (type == "tie")
-  {
-    prm.declare_entry("Follower", "", any_text(),
-                      "Body whose nodes on the leader's surface are tied.");
-    prm.declare_entry("Leader", "", any_text(), "A FEM body.");
-    prm.declare_entry("Tolerance", "0.05", quantity(Dimension::none, 1e-6, 1.),
-                      "Distance from the surface, in follower spacings, up to "
-                      "which a node is tied.");
-    return;
-  }
-  prm.declare_entry("Bodies", "", names, "Bodies that may touch each other.");
-  prm.declare_entry("Friction coefficient", "0",
-                    quantity(Dimension::none, 0., 2.), "Coulomb friction.");
-  prm.declare_entry("Damping fraction", "0.1",
-                    quantity(Dimension::none, 0., 1.),
-                    "Of critical, while two nodes approach.");
-  prm.declare_entry("Stiffness scale", "1",
-                    quantity(Dimension::none, 1e-3, 10.),
-                    "Penalty stiffness over bulk modulus times spacing.");
-  prm.declare_entry("Dynamic friction coefficient", "-1",
-                    quantity(Dimension::none, -1., 2.),
-                    "Coulomb friction mu_d of fast sliding: mu_d + (mu_s - "
-                    "mu_d) exp(-decay speed), mu_s the friction coefficient; "
-                    "-1: as at rest.");
-  prm.declare_entry("Friction decay", "0", quantity(Dimension::none, 0.),
-                    "Decay of friction with the speed of sliding, in s/m.");
-  prm.declare_entry("Shear strength", "0",
-                    word_or("yield", quantity(Dimension::pressure, 0.)),
-                    "Friction per area stays below it; yield: the present "
-                    "flow stress of the softer side, where it is touched, over "
-                    "sqrt(3). 0: no limit.");
-  if (type == "self-contact")
-    prm.declare_entry("Contact distance", "0.9",
-                      quantity(Dimension::none, 0.1, 1.),
-                      "Distance over spacing below which debris repels, unless "
-                      "it was met closer.");
+  const std::vector<std::string> present = file.subsections(section);
+  std::string list = "List of " + section;
+  list[8] = std::tolower(list[8]);
+  for (const std::string &name : split_names(file.value(list, "")))
+    if (std::find(present.begin(), present.end(), name) == present.end())
+      throw InputError(list,
+                       "\"" + name + "\" is listed, but there is no \"" +
+                           section + "/" + name + "\"" +
+                           (present.empty()
+                                ? std::string()
+                                : "; did you mean \"" +
+                                      nearest_name(name, present) + "\"?"));
+  return present;
 }
 
-void declare_quantity(Parameters &prm, const std::string &type)
+/** Calls @p declare_entries(path, name) within each subsection of @p section:
+    those of the file, or @p manual_names for the manual. */
+template <typename Declare>
+void declare_section(Parameters &prm, const ParameterFile *file,
+                     const std::string &section,
+                     const std::vector<std::string> &manual_names,
+                     const Declare &declare_entries)
 {
-  Registry<QuantityOfInterest>::declare_choice(prm, "Type", "velocity", "");
-  Registry<QuantityOfInterest>::declare_entries(prm, type);
+  prm.enter_subsection(section);
+  for (const std::string &name :
+       file == nullptr ? manual_names : present_names(*file, section))
+  {
+    prm.enter_subsection(name);
+    declare_entries(section + "/" + name, name);
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+}
+
+/** Of things whose entry "Type" chooses among the products of a registry. */
+template <typename Product, bool is_knob>
+void declare_products(Parameters &prm, const ParameterFile *file,
+                      const std::string &section, const std::string &standard)
+{
+  declare_section(
+      prm, file, section, {"<name>"},
+      [&](const std::string &path, const std::string &)
+      {
+        Registry<Product>::declare_choice(prm, "Type", standard, "");
+        if constexpr (is_knob)
+          prm.mark_as_knob("Type");
+        Registry<Product>::declare_entries(
+            prm, file == nullptr ? "" : file->value(path + "/Type", standard));
+      });
+}
+
+void declare_materials(Parameters &prm, const ParameterFile *file)
+{
+  declare_section(
+      prm, file, "Materials", {"<name>"},
+      [&](const std::string &path, const std::string &)
+      {
+        // The manual shows all laws, a scene may set the chosen one's only.
+        if (file == nullptr)
+          return Material::declare_parameters(prm);
+        const std::string model = file->value(path + "/Model", "Elastic"),
+                          equation_of_state = file->value(
+                              path + "/Equation of state", "Bulk modulus");
+        Material::check_subsections(path, file->subsections(path), model,
+                                    equation_of_state);
+        Material::declare_parameters(prm, model, equation_of_state);
+      });
+}
+
+void declare_bodies(Parameters &prm, const ParameterFile *file)
+{
+  // Every pair of a shape and a discretization would say all entries of both
+  // many times: each once, with a box or as finite elements, says all.
+  std::vector<std::string> names;
+  std::vector<std::pair<std::string, std::string>> kinds;
+  for (const auto &shape : Registry<Shape>::entries())
+    kinds.emplace_back(standard_discretization, shape.name);
+  for (const auto &d : Registry<Discretization>::entries())
+    if (d.name != standard_discretization)
+      kinds.emplace_back(d.name, "box");
+  for (const auto &[discretization, shape] : kinds)
+    names.push_back("<" + discretization + " " + shape + ">");
+  declare_section(
+      prm, file, "Bodies", names,
+      [&](const std::string &path, const std::string &name)
+      {
+        if (file != nullptr)
+          return declare_body(
+              prm,
+              file->value(path + "/Discretization", standard_discretization),
+              file->value(path + "/Geometry", "box"));
+        const auto &kind =
+            kinds[std::find(names.begin(), names.end(), name) - names.begin()];
+        declare_body(prm, kind.first, kind.second);
+      });
 }
 } // namespace
 
 void Scene::declare(Parameters &prm, const ParameterFile *file)
 {
   declare_top(prm);
-  const auto each = [&](const std::string &section,
-                        const std::vector<std::string> &kinds,
-                        const auto &declare_entries)
-  {
-    prm.enter_subsection(section);
-    std::vector<std::string> present = kinds;
-    if (file != nullptr)
-    {
-      // Listed names must have a subsection; others may stand unused (an
-      // including file can shorten a list), but are read as strictly.
-      present = file->subsections(section);
-      if (section != "Materials")
+  declare_materials(prm, file);
+  declare_bodies(prm, file);
+  declare_products<CouplingBuilder, true>(prm, file, "Couplings", "contact");
+  declare_section(
+      prm, file, "Outputs", {"<name>"},
+      [&](const std::string &path, const std::string &)
       {
-        std::string list = "List of " + section;
-        list[8] = std::tolower(list[8]);
-        for (const std::string &name : split_names(file->value(list, "")))
-          if (std::find(present.begin(), present.end(), name) == present.end())
-            throw InputError(
-                list, "\"" + name + "\" is listed, but there is no \"" +
-                          section + "/" + name + "\"" +
-                          (present.empty()
-                               ? std::string()
-                               : "; did you mean \"" +
-                                     nearest_name(name, present) + "\"?"));
-      }
-    }
-    for (const std::string &name : present)
-    {
-      prm.enter_subsection(name);
-      declare_entries(section + "/" + name, name);
-      prm.leave_subsection();
-    }
-    prm.leave_subsection();
-  };
-  const auto read = [&](const std::string &path, const std::string &standard)
-  { return file == nullptr ? standard : file->value(path, standard); };
-  each("Materials", {"<name>"},
-       [&](const std::string &path, const auto &)
-       {
-         // The manual shows all laws, a scene may set the chosen one's only.
-         if (file == nullptr)
-           return Material::declare_parameters(prm);
-         const std::string model = read(path + "/Model", "Elastic"),
-                           equation_of_state = read(path + "/Equation of state",
-                                                    "Bulk modulus");
-         Material::check_subsections(path, file->subsections(path), model,
-                                     equation_of_state);
-         Material::declare_parameters(prm, model, equation_of_state);
-       });
-  // Every pair of a shape and a discretization would say all entries of both
-  // many times: each once, with a box or as finite elements, says all.
-  std::vector<std::string> bodies;
-  for (const auto &shape : Registry<Shape>::entries())
-    bodies.push_back("<FEM " + shape.name + ">");
-  for (const auto &d : Registry<Discretization>::entries())
-    if (d.name != "FEM")
-      bodies.push_back("<" + d.name + " box>");
-  each("Bodies", bodies,
-       [&](const std::string &path, const std::string &name)
-       {
-         const bool manual = file == nullptr;
-         declare_body(prm,
-                      manual ? name.substr(1, name.find(' ') - 1)
-                             : read(path + "/Discretization", "FEM"),
-                      manual ? name.substr(name.find(' ') + 1,
-                                           name.size() - name.find(' ') - 2)
-                             : read(path + "/Geometry", "box"));
-       });
-  each("Couplings", {"<tie>", "<contact>", "<self-contact>"},
-       [&](const std::string &path, const std::string &name)
-       {
-         declare_coupling(prm, file == nullptr
-                                   ? name.substr(1, name.size() - 2)
-                                   : read(path + "/Type", "contact"));
-       });
-  each("Outputs", {"<name>"},
-       [&](const std::string &path, const auto &)
-       {
-         Output::declare_parameters(
-             prm, file == nullptr ? "" : read(path + "/Type", "VTU"));
-       });
-  each("Quantities", {"<name>"},
-       [&](const std::string &path, const auto &)
-       {
-         declare_quantity(
-             prm, file == nullptr ? "" : read(path + "/Type", "velocity"));
-       });
+        Output::declare_parameters(
+            prm, file == nullptr ? "" : file->value(path + "/Type", "VTU"));
+      });
+  declare_products<QuantityOfInterest, false>(prm, file, "Quantities",
+                                              "velocity");
 }
 } // namespace sabot

@@ -1,3 +1,4 @@
+// Hexahedra against exact answers on few cells.
 #include "verification/world.h"
 
 #include <gtest/gtest.h>

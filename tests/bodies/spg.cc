@@ -1,3 +1,4 @@
+// Particles against exact answers on small blocks.
 #include "verification/balance.h"
 
 #include <gtest/gtest.h>

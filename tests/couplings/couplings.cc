@@ -1,6 +1,8 @@
+// Contact, self-contact and ties on few nodes.
 #include "verification/world.h"
 
 #include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
 #include "sabot/couplings/self_contact.h"
 #include "sabot/couplings/tie.h"
 
@@ -228,7 +230,7 @@ TEST(Contact, friction_slows_a_sliding_block_by_coulomb)
   add_fem(world, make_graded_box(
                      box({{20e-3, 8e-3, 4e-3}}, {{4e-3, 0, -2e-3}}, 1e-3)));
   ContactOptions options;
-  options.friction = mu;
+  options.friction = coulomb(mu);
   world.couplings.push_back(std::make_unique<Contact>(
       "contact", world.pointers(),
       std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, options,

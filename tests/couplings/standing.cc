@@ -1,3 +1,4 @@
+// What a particle stands on, and when contact forgets it.
 #include "sabot/couplings/mirror_images.h"
 #include "sabot/couplings/particle_standing.h"
 #include "verification/world.h"

@@ -1,3 +1,4 @@
+// Meshes: volumes, boundaries, growth, import.
 #include "sabot/base/error.h"
 #include "sabot/geometry/carving.h"
 #include "sabot/geometry/mesh_generator.h"
@@ -210,7 +211,7 @@ TEST(MeshImport, reads_gmsh_vtk_and_abaqus)
         write("cubes.inp", abaqus)})
   {
     const HexMesh mesh =
-        read_mesh(file, 1e-3, {{1e-3, 0., 0.}}, -1, "Bodies/a/Mesh file");
+        read_mesh(file, 1e-3, {{1e-3, 0., 0.}}, {}, "Bodies/a/Mesh file");
     EXPECT_EQ(mesh.cells.size(), 2u) << file;
     EXPECT_EQ(mesh.nodes.size(), 12u) << file;
     EXPECT_NEAR(volume(mesh), 2e-9, 1e-21) << file;
@@ -227,7 +228,7 @@ TEST(MeshImport, takes_boundary_and_material_ids)
 {
   const std::string file = write("cubes.msh", gmsh);
   const HexMesh all =
-      read_mesh(file, 1., {{0., 0., 0.}}, -1, "Bodies/a/Mesh file");
+      read_mesh(file, 1., {{0., 0., 0.}}, {}, "Bodies/a/Mesh file");
   int n_marked = 0;
   for (std::size_t f = 0; f < all.boundary_faces.size(); ++f)
     if (all.boundary_id[f] == 7)
@@ -250,7 +251,7 @@ TEST(MeshImport, says_what_is_wrong)
   {
     try
     {
-      read_mesh(file, 1., {{0., 0., 0.}}, -1, "Bodies/a/Mesh file");
+      read_mesh(file, 1., {{0., 0., 0.}}, {}, "Bodies/a/Mesh file");
     }
     catch (const InputError &e)
     {

@@ -1,3 +1,4 @@
+// Polar decomposition and rotations.
 #include "sabot/kernels/polar.h"
 #include "sabot/kernels/stress_update.h"
 

@@ -1,8 +1,12 @@
+// Vectors, tensors, packs and kernel functions.
 #include "sabot/kernels/vec.h"
 #include "sabot/kernels/closest_point.h"
+#include "sabot/kernels/eigen.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/principal.h"
 #include "sabot/kernels/stress_update.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <random>

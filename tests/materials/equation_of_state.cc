@@ -1,5 +1,6 @@
-#include "sabot/materials/mie_gruneisen.h"
+// Mie-Gruneisen pressure against Rankine-Hugoniot and the isentrope.
 #include "point.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "verification/metals.h"
 
 #include <gtest/gtest.h>

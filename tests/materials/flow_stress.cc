@@ -1,3 +1,4 @@
+// The flow stress that friction asks materials for.
 #include "sabot/bodies/flow_stress.h"
 
 #include "sabot/materials/johnson_cook.h"

@@ -1,3 +1,4 @@
+// Elastic, hardening and Johnson-Cook points against closed forms.
 #include "point.h"
 #include "verification/metals.h"
 

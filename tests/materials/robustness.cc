@@ -1,7 +1,7 @@
 // Melt, rates from 1e-3 to 1e7 1/s, extreme strain: numbers stay numbers, the
 // yield stress is never negative and never exceeded.
-#include "sabot/materials/mie_gruneisen.h"
 #include "point.h"
+#include "sabot/materials/mie_gruneisen.h"
 #include "verification/metals.h"
 
 #include <gtest/gtest.h>

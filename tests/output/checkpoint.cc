@@ -1,3 +1,4 @@
+// Checkpoints: written, read, damaged, resumed.
 #include "sabot/output/checkpoint.h"
 
 #include "sabot/base/error.h"

@@ -1,7 +1,11 @@
+// Fragments of a torn bar, in fields and in result.json.
 #include "temporary_folder.h"
 
 #include "sabot/base/parameter_file.h"
 #include "sabot/simulation/run.h"
+#include "verification/metals.h"
+
+#include <nlohmann/json.hpp>
 
 #include <vtkDataArray.h>
 #include <vtkNew.h>

@@ -1,3 +1,4 @@
+// Files of a run: history, fields, log.
 #include "temporary_folder.h"
 
 #include "sabot/base/error.h"

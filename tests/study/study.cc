@@ -1,3 +1,4 @@
+// Studies: their files, results, tables and charts.
 #include "sabot/base/hash.h"
 #include "sabot/simulation/zone_verdict.h"
 #include "sabot/study/analysis.h"

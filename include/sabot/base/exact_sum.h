@@ -19,6 +19,11 @@ __extension__ typedef __int128 Int128;
  * A term that is not finite, or of 7e13 and more, makes the sum not-a-number:
  * trouble stays visible, and is counted rather than added, so that it does not
  * depend on the order either.
+ *
+ * Energies, masses and momenta are summed with it, and what decides (a verdict,
+ * a quantity of interest) follows from those sums: equal runs thus give equal
+ * bytes of history.h5 on one rank and on many. Forces are not: their order is
+ * fixed instead, by global numbers.
  */
 class ExactSum
 {

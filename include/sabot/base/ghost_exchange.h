@@ -18,7 +18,15 @@ namespace sabot
  *
  * Who sends what to whom is found by the owners themselves: a rank tells the
  * owner of each ghost the key under which it wants it, and gets the values in
- * that order from then on. With one rank, or where no rank shares anything,
+ * that order from then on:
+ *
+ *     GhostExchange exchange(communicator, nodes.n_owned, owner, id,
+ *                            [&](GlobalIndex i) { return local_number(i); });
+ *     exchange.update(nodes.velocity.data());
+ *
+ * Messages go to neighbors only, all at once, without waiting for any in
+ * particular; each update is one message per pair of ranks and direction. With
+ * one rank, or where no rank shares anything,
  * all functions return at once.
  */
 class GhostExchange

@@ -21,7 +21,11 @@ using Measures = std::vector<Measure>;
     there is none. */
 double find_measure(const Measures &measures, const std::string &name);
 
-/** A whole body at one moment, the same on all ranks. */
+/**
+ * A whole body at one moment, the same on all ranks and, to the last bit, for
+ * every number of ranks. What all bodies have stands in members, so that nobody
+ * has to look for it by name; what only some kinds have stands in `own`.
+ */
 struct BodyMeasures
 {
   double mass = 0.;                        // [kg]

@@ -19,6 +19,22 @@ namespace sabot
  * Keeps for every entry the file and line it comes from, so that each problem
  * is answered by one line that says where, what, and what would be right.
  * Everything that is wrong throws InputError.
+ *
+ *     # a comment, to the end of the line
+ *     include base.prm              # its entries, as if they stood here
+ *     set End time = 60 us          # of the present subsection
+ *     subsection Bodies
+ *       subsection plate            # may be opened more than once
+ *         set Size = 76 mm, 76 mm, \
+ *                    26.3 mm        # a backslash continues a line
+ *       end
+ *     end
+ *
+ * Blanks around names and values do not count, upper and lower case do. A
+ * later file wins over an earlier one, so that an including file changes what
+ * it includes; within one file an entry stands once. Reading knows nothing of
+ * what is declared: the scene first asks what the file chooses, declares what
+ * these choices have, and then lets parse_into() check every entry.
  */
 class ParameterFile
 {

@@ -72,6 +72,16 @@ Pattern word_or(const std::string &word, const Pattern &other);
  * deal.II's ParameterHandler with the part that models need to declare and to
  * read themselves. Names are case-sensitive; all methods act on the present
  * subsection.
+ *
+ *     prm.declare_entry("Yield stress", "0",
+ *                       quantity(Dimension::pressure, 0., 1e12),
+ *                       "Initial yield stress.");
+ *     ...                                    // a file sets "324 MPa"
+ *     const double Y = get_quantity(prm, "Yield stress"); // 3.24e8
+ *
+ * Defaults are text, too, with their unit: the manual shows them as a file
+ * would have them. Sets and gets convert once, at the start of a run; models
+ * keep numbers.
  */
 class Parameters
 {
@@ -92,6 +102,8 @@ public:
       these with the values in force. */
   void declare_knob(const std::string &name, const std::string &standard,
                     const Pattern &pattern, const std::string &meaning);
+  /** Makes a declared entry of the present subsection a knob. */
+  void mark_as_knob(const std::string &name);
   /** Path and value of all knobs, in the order of their declaration. */
   std::vector<std::pair<std::string, std::string>> knobs();
   /** Go down into the subsection @p name of the present one, which comes into

@@ -48,6 +48,24 @@ void add_registry(RegistryContents (*contents)());
  *     using Make = std::unique_ptr<FrictionLaw>(const Parameters &,
  *                                               const std::string &path);
  *
+ * A whole file of a new choice is thus, with the class and its work in between,
+ *
+ *     // Friction that does not depend on the pressure.
+ *     #include "sabot/base/registry.h"
+ *     #include "sabot/couplings/contact/law.h"
+ *
+ *     namespace sabot
+ *     {
+ *     namespace
+ *     {
+ *     class Constant : public FrictionLaw { ... };
+ *     void declare(Parameters &prm) { prm.declare_entry(...); }
+ *     ... make(const Parameters &prm, const std::string &path) { ... }
+ *     const Registry<FrictionLaw>::Add added({"constant", "...", declare,
+ *                                             make});
+ *     } // namespace
+ *     } // namespace sabot
+ *
  * The files must be linked as objects: a static library would drop what nobody
  * names.
  */
@@ -128,6 +146,14 @@ public:
           (meaning.empty() ? "" : " ") + entry.name + ": " + entry.description;
     }
     prm.declare_entry(name, standard, one_of(words), meaning);
+  }
+
+  /** The same for a choice that trades speed for accuracy (declare_knob()). */
+  static void declare_knob(Parameters &prm, const std::string &name,
+                           const std::string &standard, const std::string &lead)
+  {
+    declare_choice(prm, name, standard, lead);
+    prm.mark_as_knob(name);
   }
 
   /** Declares what the choice @p name brings with it; of a name that is not

@@ -16,7 +16,8 @@ std::string trim(const std::string &text);
     separator where nothing does: "a;;b;" has three. */
 std::vector<std::string> split(const std::string &text, const char separator);
 
-/** The parts of @p texts with @p between in between. */
+/** The parts of @p texts with @p between in between: join({"a", "b"}, "/") is
+    "a/b", and nothing for no parts. */
 std::string join(const std::vector<std::string> &texts,
                  const std::string &between);
 

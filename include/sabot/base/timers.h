@@ -11,8 +11,12 @@ namespace sabot
  * Wall-clock seconds per named phase of a run on this rank ("spg step",
  * "contact", "output"), for `timers` of result.json. A scope costs two reads
  * of the clock and a look-up by name: for phases of a step, not for what is
- * done per particle. Scopes may stand within each other: the outer
- * one counts the time of the inner one, too.
+ * done per particle.
+ *
+ *     const auto timer = timers.scope("contact"); // to the end of the block
+ *
+ * Scopes may stand within each other: the outer one counts the time of the
+ * inner one, too.
  */
 class Timers
 {

@@ -123,8 +123,6 @@ public:
   virtual DebrisView debris() const = 0;
   /** Whether owned node @p i is still bonded to node @p j (global). */
   virtual bool are_bonded(const std::size_t i, const GlobalIndex j) const = 0;
-  /** Nodal spacing at the start along the axes [m]. */
-  virtual std::array<double, 3> lattice_spacing() const = 0;
   /** Bonds of owned particles, each counted at both ends. */
   virtual std::size_t n_bonds() const = 0;
 };

@@ -16,8 +16,10 @@ struct BodyFacts
   bool is_particles = false;
   bool is_clamped = false;          // somewhere
   std::array<double, 3> velocity{}; // at the start [m/s]
-  double spacing = 0.;              // of nodes, the finest [m]
-  bool may_fail = false;            // by a criterion, whichever
+  /** Distance of nodes that was asked for along the axes; the finest where it
+      varies [m]. */
+  std::array<double, 3> spacing{};
+  bool may_fail = false; // by a criterion, whichever
   /** Effective plastic strain at which it fails; nothing where another measure
       decides, or where nothing fails. */
   std::optional<double> failure_strain;

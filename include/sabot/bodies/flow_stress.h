@@ -7,13 +7,18 @@
 
 namespace sabot
 {
-/** Asks a law for the flow stress of copies of material points as they are
-    now. */
+/**
+ * Asks a law for the flow stress of copies of material points as they are now.
+ * Points of any bodies of the material are collected by add() and answered
+ * together, a batch at a time. Costs some tens of updates of the law per point:
+ * for some points of a surface, not for every point in every step.
+ */
 class FlowStressProbe
 {
 public:
   explicit FlowStressProbe(const Material &material);
-  /** Append a point; @p state(row): of the material's arrays. */
+  /** Append a point: pressure [Pa], positive in compression, det F, and
+      @p state(row) of the material's arrays. */
   template <typename State>
   void add(const double pressure, const double jacobian, const State &state)
   {

@@ -26,7 +26,7 @@ public:
   /** Once, after the last prescribe(). */
   void finish();
 
-  /** Set the held components. */
+  /** Set the held components of the velocity; the others stay. */
   void impose(NodalState &nodes) const;
   /** Work along @p half_dt with the current forces; collective with nobody. */
   void accumulate_work(const NodalState &nodes, const double half_dt);

@@ -1,7 +1,7 @@
 #ifndef sabot_couplings_contact_search_h
 #define sabot_couplings_contact_search_h
 
-#include "sabot/couplings/contact_law.h"
+#include "sabot/couplings/contact_spring.h"
 #include "sabot/couplings/node_halo.h"
 #include "sabot/kernels/closest_point.h"
 
@@ -12,19 +12,20 @@ namespace sabot
 struct ContactPair
 {
   int faces_of, nodes_of;
-  bool loose_nodes_only = false;
+  bool loose_nodes_only = false; // of a tied pair: only debris meets
 };
 
+/** A face with the places of its corners, as ranks tell each other. */
 struct FaceNodes
 {
   std::int32_t body;
-  GlobalIndex id;
+  GlobalIndex id; // ContactSurface::face_id
   std::array<GlobalIndex, 4> node;
-  std::array<Vec, 4> x;
+  std::array<Vec, 4> x; // [m], current
 };
 
-/** A node and the faces that it may touch until the bodies have moved by the
-    skin. */
+/** A node and the faces of one body that it may touch until the bodies have
+    moved by the skin. */
 struct ContactCandidate
 {
   NodeKey node;
@@ -34,11 +35,12 @@ struct ContactCandidate
   Vec area; // quarters of the vectors of its own faces, where asked for [m^2]
 };
 
+/** The same on every rank. */
 struct SearchResult
 {
-  std::vector<FaceNodes> faces; // the same on every rank
-  std::vector<std::int64_t> face_of_candidate;
-  std::vector<ContactCandidate> candidates; // sorted by node, then body
+  std::vector<FaceNodes> faces;                // sorted by body and id
+  std::vector<std::int64_t> face_of_candidate; // indices of faces
+  std::vector<ContactCandidate> candidates;    // sorted by node, then body
 };
 
 /** Memories of the nodes owned here, sorted by node. */
@@ -46,17 +48,25 @@ using ContactMemories = std::vector<std::pair<NodeKey, ContactMemory>>;
 
 /**
  * Bucket search: every node of the pairs with the faces closer than
- * max(@p spacing, its depth) + @p skin. The result is the same on every rank;
- * cost is linear in nodes and faces near the overlap of the bodies' bounding
- * boxes. Collective.
- * @param surfaces of all bodies; those of no pair may be empty.
+ * max(spacing, its depth, at most 3 spacings) + skin. Three steps: faces near
+ * the other body's nodes are gathered from all ranks and put into buckets; each
+ * rank tries its own nodes; what was found is merged in one order. Cost is
+ * linear in nodes and faces near the overlap of the bodies' bounding boxes.
  */
-SearchResult search_contacts(const std::vector<Body *> &bodies,
-                             const std::vector<ContactSurface> &surfaces,
-                             const std::vector<ContactPair> &pairs,
-                             const ContactMemories &memories,
-                             const double spacing, const double skin,
-                             const bool with_areas, MPI_Comm communicator);
+struct ContactSearch
+{
+  const std::vector<Body *> &bodies;
+  /** Of all bodies; those of no pair may be empty. */
+  const std::vector<ContactSurface> &surfaces;
+  const std::vector<ContactPair> &pairs;
+  const ContactMemories &memories;
+  double spacing, skin; // [m]
+  bool with_areas;      // whether ContactCandidate::area is asked for
+  MPI_Comm communicator;
+
+  /** Collective; the same on every rank. */
+  SearchResult find() const;
+};
 
 /** Largest speed at which a node of one body of a pair can close in on a node
     of the other [m/s]: speeds are taken from the middle of all velocities.

@@ -7,6 +7,8 @@
 #include "sabot/bodies/body.h"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sabot
 {
@@ -19,8 +21,12 @@ public:
 
   const std::string name;
 
-  /** "tie", "contact" or "self-contact": the name of its timers. */
+  /** "tie", "contact" or "self-contact": the name of its timers and its type
+      in results. Not to be compared: what it does, holds_apart() says. */
   virtual std::string kind() const = 0;
+  /** Pairs of bodies, by number, that it keeps from passing through each other;
+      (a, a): parts of one body. */
+  virtual std::vector<std::pair<int, int>> holds_apart() const { return {}; }
   /** Once, after the bodies were distributed. Collective. */
   virtual void initialize() = 0;
   /** Followers take the motion of their leaders. */

@@ -1,7 +1,8 @@
 #ifndef sabot_couplings_particle_contact_h
 #define sabot_couplings_particle_contact_h
 
-#include "sabot/couplings/contact_law.h"
+#include "sabot/couplings/contact_options.h"
+#include "sabot/couplings/contact_points.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/halo_forces.h"
 #include "sabot/couplings/mirror_images.h"
@@ -11,7 +12,7 @@
 namespace sabot
 {
 /**
- * Penalty contact with Coulomb friction between bodies without faces. A node
+ * Penalty contact with friction between bodies without faces. A node
  * that lies open (on the surface of its body, or loose) meets what
  * stand_on_surface() makes of the sound surface of another body; where there is
  * none, and for a loose node, what stand_in_volume() makes of all of its
@@ -28,6 +29,10 @@ public:
                   const ContactOptions &options, MPI_Comm communicator);
 
   std::string kind() const override { return "contact"; }
+  std::vector<std::pair<int, int>> holds_apart() const override
+  {
+    return pairs;
+  }
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
@@ -65,9 +70,13 @@ private:
   void update_halo();
   /** Weights go to near[]. */
   Standing locate(const Group &group, const Slots &slots);
-  /** Add @p of_node to @p force on the node, its opposite to what it presses
-      on. */
-  void push(const Slots &at, const Vec of_node, AlignedVector<Vec> &force);
+  /** Adds a contact point where the other body holds the node of group
+      @p number. At the start (@p dt = 0) bodies may touch already. */
+  void press(const std::size_t number, const double dt);
+  /** Against what is near, as one: sets its velocity [m/s] and reduced mass
+      [kg]. */
+  void find_motion(const Slots &at, ContactPoint &point) const;
+  void push(const ContactPoint &point);
 
   const std::vector<Body *> bodies;
   const std::vector<std::pair<int, int>> pairs;
@@ -78,6 +87,8 @@ private:
   std::vector<Slots> slots;    // parallel to groups
   std::vector<std::size_t> member_slots;
   std::vector<NearParticle> near;      // of the group at hand
+  ContactPoints points;                // of the step
+  std::vector<NearParticle> touched;   // by the points, one after the other
   std::vector<char> is_on_surface;     // per slot
   AlignedVector<SurfacePoint> surface; // per slot
   AlignedVector<VolumePoint> volume;   // per slot

@@ -1,7 +1,8 @@
 #ifndef sabot_couplings_self_contact_h
 #define sabot_couplings_self_contact_h
 
-#include "sabot/couplings/contact_law.h"
+#include "sabot/couplings/contact_options.h"
+#include "sabot/couplings/contact_points.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/halo_forces.h"
 
@@ -36,6 +37,10 @@ public:
 
   /** "self-contact", or "contact" where no body meets itself. */
   std::string kind() const override;
+  std::vector<std::pair<int, int>> holds_apart() const override
+  {
+    return body_pairs;
+  }
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
@@ -50,12 +55,17 @@ private:
     NodeKey first, second;   // first < second
     double distance;         // below which they repel [m]
     double stiffness;        // [N/m]
-    double largest_friction; // [N]
+    double area;             // that a pair stands for, h^2 [m^2]
+    double largest_friction; // that the metals bear [N]
     std::size_t slot[2];
   };
   void search();
   /** Slots of the nodes of all pairs. Collective. */
   void build_halo();
+  /** Scale the stiffness of all that touches a particle below its bound.
+      Collective. */
+  void soften(const double dt);
+  void push(const ContactPoint &point);
 
   const std::vector<Body *> bodies;
   const std::vector<std::pair<int, int>> body_pairs;
@@ -65,6 +75,7 @@ private:
   NodeHalo halo;
   std::vector<double> softening; // per slot, of the stiffness
   HaloForces forces;
+  ContactPoints points; // of the step
   double skin = 0., travelled = 0.;
   std::size_t n_loose = 0;
 };

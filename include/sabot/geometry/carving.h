@@ -7,13 +7,15 @@
 
 namespace sabot
 {
-/** A box, or a cylinder along an axis: where a zone of particles lies. */
+/** A box along the axes, or a cylinder along one of them: where a zone of
+    particles lies, in the reference configuration. */
 struct ZoneShape
 {
   std::array<double, 3> centre{{0., 0., 0.}}; // [m]
   std::array<double, 3> size{{0., 0., 0.}};   // [m], of a cylinder's bounds
   int axis = -1;                              // of a cylinder; -1: a box
 
+  /** Whether the point is inside; not on the surface, to round-off. */
   bool contains(const std::array<double, 3> &point) const;
   /** Whether it is a cylinder along the @p line_axis through @p point. */
   bool is_coaxial(const unsigned int line_axis,
@@ -30,14 +32,16 @@ struct Carving
   bool follows_mesh = false;
 };
 
-/** A mesh in two parts that share the nodes between them. */
+/** A mesh in two parts. Nodes between them belong to both, at the same place,
+    for a tie to join. */
 struct CarvedMesh
 {
   HexMesh rest, zone;
 };
 
 /**
- * Cells whose centre lies in @p shape form the zone. Nodes and cells keep
+ * Cuts a mesh along its faces, not along the shape: cells whose centre (mean of
+ * the corners) lies in @p shape form the zone. Nodes and cells keep
  * their order; faces between the parts become boundary faces of both, with the
  * first boundary id that @p n_named and the mesh leave free. Throws InputError
  * for @p path where one of the parts would be empty.

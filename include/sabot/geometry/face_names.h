@@ -6,9 +6,10 @@
 
 namespace sabot
 {
-/** Numbers of the faces (or axes) that @p text lists, separated by commas,
-    among the @p allowed ones, which are numbered in order. Throws InputError
-    for the entry @p path with the list of allowed names for any other. */
+/** From words to boundary ids. Numbers of the faces (or axes) that @p text
+   lists, separated by commas, among the @p allowed ones, which are numbered in
+   order. Throws InputError for the entry @p path with the list of allowed names
+   for any other. */
 std::vector<unsigned int> face_ids(const std::string &path,
                                    const std::string &text,
                                    const std::vector<std::string> &allowed);

@@ -10,18 +10,20 @@ namespace sabot
 {
 /**
  * A hexahedral mesh as arrays, taken once from deal.II's triangulation and
- * DoFHandler, the same on every rank. Nodes and cells are numbered along a
- * space-filling curve. Cells list their nodes in VTK order (0-3 around the
- * bottom counter-clockwise seen from above, 4-7 above them).
+ * DoFHandler, the same on every rank, in the reference configuration. Nodes and
+ * cells are numbered along a space-filling curve. Cells list their nodes in VTK
+ * order (0-3 around the bottom counter-clockwise seen from above, 4-7 above
+ * them).
  */
 struct HexMesh
 {
-  std::vector<std::array<double, 3>> nodes;
+  std::vector<std::array<double, 3>> nodes; // X [m]
   std::vector<std::array<GlobalIndex, 8>> cells;
-  /** Mean gradient of the eight shape functions, integral(dN/dX)/V [1/m], and
-      volume [m^3] of each cell (2x2x2 Gauss points of deal.II, exact). */
+  /** Mean gradient of the eight shape functions over each cell, [cell][corner],
+      B_a = integral(dN_a/dX)/V [1/m]; sum_a B_a = 0 and sum_a X_a (x) B_a = 1.
+      By 2x2x2 Gauss points, exact for trilinear cells, as is the volume. */
   std::vector<std::array<std::array<double, 3>, 8>> mean_gradient;
-  std::vector<double> volume;
+  std::vector<double> volume; // of each cell [m^3], > 0
   /** Boundary quadrilaterals, outward normal by the right-hand rule, with the
       boundary id of the geometry (see the function that made the mesh). */
   std::vector<std::array<GlobalIndex, 4>> boundary_faces;

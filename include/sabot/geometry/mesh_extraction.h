@@ -3,14 +3,25 @@
 
 #include "sabot/geometry/hex_mesh.h"
 
-#include <deal.II/grid/tria.h>
+// deal.II's grids take seconds to parse: their headers are for source files.
+namespace dealii
+{
+template <int dim, int spacedim>
+class Triangulation;
+}
 
 namespace sabot
 {
-/** Take nodes, cells, mean gradients, volumes and boundary faces out of
-    deal.II: node numbers from a DoFHandler of trilinear elements, reordered
-    along a Hilbert curve, integrals by FEValues. */
-HexMesh extract_mesh(const dealii::Triangulation<3> &mesh);
+/**
+ * Takes a mesh of hexahedra out of deal.II, after which the program needs
+ * nothing of it: active cells, no hanging nodes. Node numbers come from a
+ * DoFHandler of trilinear elements, then nodes and cells are reordered along a
+ * Hilbert curve, so that neighbors in space are neighbors in memory and the
+ * numbering depends on the coordinates only. Mean gradients and volumes are
+ * integrals by FEValues. Not collective; the same on every rank that has the
+ * same mesh.
+ */
+HexMesh extract_mesh(const dealii::Triangulation<3, 3> &mesh);
 } // namespace sabot
 
 #endif

@@ -3,16 +3,23 @@
 
 #include "sabot/geometry/hex_mesh.h"
 
+#include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace sabot
 {
-/** A box of hexahedra, uniform, or graded away from a zone that is left out. */
+/** Cells that grow away from their fine part without an upper bound. */
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/** A box of hexahedra, uniform, or graded away from a zone: the part that has
+    cells of the cell size, which may be left out for particles. */
 struct BoxSpecification
 {
   std::array<double, 3> centre{{0., 0., 0.}}, size{{0., 0., 0.}}; // [m]
   double cell_size = 0.;                                          // [m]
-  double coarsest_cell_size = 1e30;                               // [m]
+  double coarsest_cell_size = unbounded;                          // [m]
   double growth_ratio = 1.;
   bool has_zone = false;
   bool zone_is_cut = true; // else it is only where the cells are fine
@@ -21,6 +28,8 @@ struct BoxSpecification
 };
 
 /**
+ * The box, in cells whose planes are common to all rows: uniform where there is
+ * no zone, else uniform over the zone and growing away from it along each axis.
  * Boundary ids: 0 to 5 for -x, +x, -y, +y, -z, +z, and 6 for the faces of the
  * zone. Throws InputError when the zone is not inside the box.
  */
@@ -29,12 +38,13 @@ HexMesh make_graded_box(const BoxSpecification &box);
 /** How the o-grid of a cylinder is graded. */
 struct CylinderGrading
 {
-  double core_radius = 0.; // [m], of the square core's corners; 0: 0.55 r
+  /** Of the square core's corners [m]; nothing: 0.55 of the radius. */
+  std::optional<double> core_radius;
   double growth_ratio = 1.;
-  double coarsest_cell_size = 1e30; // [m], of the rings
-  /** [m] when positive, rings meet at this radius: the part inside has the mesh
-      of a cylinder of its own, outside of it the rings grow. */
-  double zone_radius = 0.;
+  double coarsest_cell_size = unbounded; // [m], of the rings
+  /** Rings meet at this radius [m]: the part inside has the mesh of a cylinder
+      of its own, outside of it the rings grow. */
+  std::optional<double> zone_radius;
 };
 
 /**
@@ -53,6 +63,11 @@ HexMesh make_cylinder(const double radius, const double length,
                       const std::array<double, 3> &centre,
                       const double cell_size, const unsigned int n_cuts = 0,
                       const CylinderGrading &grading = CylinderGrading());
+
+/** Sizes [m] from @p fine on, each @p growth times the last up to @p coarsest,
+    then scaled to fill @p length. */
+std::vector<double> growing_sizes(const double length, const double fine,
+                                  const double coarsest, const double growth);
 
 /** Grid planes between @p low and @p high: about @p fine between @p inner_low
     and @p inner_high, which are planes themselves, then growing outwards. */

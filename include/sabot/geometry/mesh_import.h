@@ -3,6 +3,7 @@
 
 #include "sabot/geometry/hex_mesh.h"
 
+#include <optional>
 #include <string>
 
 namespace sabot
@@ -12,13 +13,15 @@ namespace sabot
  * (.vtk); the boundary ids are the file's.
  * @param unit         length of a unit of the file's coordinates [m]
  * @param origin       where the file's origin lies [m]
- * @param material_id  cells with this material id of the file; negative: all
+ * @param material_id  only cells with this material id of the file; nothing:
+ * all
  * @param path         entry that names the file, for messages
  * Throws InputError for what cannot be read, for Exodus (Debian's deal.II has
  * no reader for it) and for cells that are not hexahedra.
  */
 HexMesh read_mesh(const std::string &file, const double unit,
-                  const std::array<double, 3> &origin, const int material_id,
+                  const std::array<double, 3> &origin,
+                  const std::optional<unsigned int> material_id,
                   const std::string &path);
 
 /** How well shaped the cells of a mesh are. */

@@ -5,11 +5,19 @@
 
 namespace sabot
 {
-/** A ball of hexahedra: a bulged cube of cells in six blocks of shells, scaled
-    to the exact volume. Boundary id 0. */
+/**
+ * A ball of hexahedra: a bulged cube of cells in six blocks of shells, scaled
+ * to the exact volume 4/3 pi r^3, so that the mass
+ * is exact; the nodes of the surface then lie a little outside of the sphere.
+ * Boundary id 0 everywhere.
+ * @param centre     [m]
+ * @param cell_size  of the cells in the middle, about [m]
+ */
 HexMesh make_sphere(const double radius, const std::array<double, 3> &centre,
                     const double cell_size);
 
+/** Profiles of a nose of the length L on a shaft of the radius R: the radius r
+    at the distance z from the shaft. */
 enum class Nose
 {
   conical,  // r = R (1 - z/L)
@@ -17,20 +25,25 @@ enum class Nose
   spherical // r = R sqrt(1 - (z/L)^2)
 };
 
+/** A cylinder with a nose. */
 struct ProjectileSpecification
 {
   double radius = 0., shaft_length = 0., nose_length = 0.; // [m]
   Nose nose = Nose::conical;
-  unsigned int axis = 2;
+  unsigned int axis = 2;        // 0, 1, 2
   bool towards_positive = true; // where the nose points
   /** Middle of the whole length, on the axis [m]. */
   std::array<double, 3> centre{{0., 0., 0.}};
   double cell_size = 0.; // [m]
 };
 
-/** A cylinder with a nose; half a ball of hexahedra is stretched to the nose,
-    its equator extruded to the shaft. Scaled across the axis to the exact
-    volume. Boundary ids: 0 the flat end, 1 everything else. */
+/**
+ * Half a ball of hexahedra is stretched to the nose, its equator extruded to
+ * the shaft, so that no cell degenerates at the tip. Scaled across the axis to
+ * the exact volume (that of the nose by Simpson's rule). Boundary ids: 0 the
+ * flat end, 1 everything else. @pre A tangent ogive is at least as long as its
+ * radius.
+ */
 HexMesh make_projectile(const ProjectileSpecification &specification);
 } // namespace sabot
 

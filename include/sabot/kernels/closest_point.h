@@ -6,11 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace sabot
 {
-/** Closest point of a triangle as barycentric weights (Ericson, Real-Time
-    Collision Detection, 2005, 5.1.5). */
+/**
+ * Closest point of the triangle a, b, c to @p p as barycentric weights: the
+ * point is w_0 a + w_1 b + w_2 c with w >= 0 and sum w = 1. By the regions of
+ * Voronoi of corners, edges and face (Ericson, Real-Time Collision Detection,
+ * 2005, 5.1.5), which need no division but in the region that is found. Any
+ * frame and unit of length; the triangle must have an area.
+ */
 inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
                                                  const Vec b, const Vec c)
 {
@@ -49,19 +55,24 @@ inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
   return {{1. - v - w, v, w}};
 }
 
-/** Where a point stands with respect to a face. */
+/** Where a point stands with respect to a face; lengths in that of the points,
+    usually metres in the present configuration. */
 struct FaceProjection
 {
-  double distance_square = 1e300;
+  /** To the closest point; infinite while there is none. */
+  double distance_square = std::numeric_limits<double>::infinity();
   double facing = 0.;   // |cos| of the angle between offset and face normal
   double gap = 0.;      // signed distance, negative inside
   Vec normal = {};      // unit, outward, along which the gap is measured
   Vec face_normal = {}; // unit, outward, of the triangle
   double along = 0.;    // signed distance from the triangle's plane
+  /** Of the four corners, which give the closest point; sum 1. */
   std::array<double, 4> weight{{0., 0., 0., 0.}};
 };
 
-/** Whether all of a quadrilateral is farther from p than @p distance. */
+/** Whether all of the quadrilateral x is farther from p than @p distance, seen
+    from the ball around its corners: a cheap first question, which says no
+    where it is not sure. */
 inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
                        const double distance)
 {
@@ -73,10 +84,13 @@ inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
 }
 
 /**
- * Closest point of a quadrilateral, taken as four triangles around its centre.
+ * Closest point of a quadrilateral, taken as four triangles around its centre,
+ * so that warped faces have no crack and no preferred diagonal.
  * The sign of the gap comes from the triangle's normal; the direction is the
  * normal where the foot lies inside the triangle, and the offset itself on
- * edges and corners.
+ * edges and corners. Of triangles that are equally close the one that faces the
+ * point most counts. Corners counter-clockwise seen from outside; triangles
+ * without an area are skipped.
  */
 inline FaceProjection project_on_face(const Vec p, const std::array<Vec, 4> &x)
 {

@@ -3,15 +3,19 @@
 
 #include "sabot/kernels/vec.h"
 
-#include <Eigen/Dense>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace sabot
 {
-/** Cubic spline on r in [0, 1], zero beyond (Wu & Wu 2018, Eq. 18). */
+/**
+ * Cubic B-spline of the normalized radius, 2/3 at the center and zero from
+ * r = 1 on (Wu & Wu 2018, Eq. 18, with r = |x|/a for the support size a):
+ *
+ *   phi = 2/3 - 4 r^2 + 4 r^3   for r <= 1/2,
+ *   phi = 4/3 (1 - r)^3         for 1/2 < r <= 1.
+ *
+ * Dimensionless; twice continuously differentiable. @pre r >= 0.
+ */
 inline double cubic_spline(const double r)
 {
   if (r >= 1.)
@@ -20,7 +24,8 @@ inline double cubic_spline(const double r)
                   : 4. / 3. * (1. - r) * (1. - r) * (1. - r);
 }
 
-/** Derivative of cubic_spline() by r. */
+/** d phi/d r of cubic_spline(): 12 r^2 - 8 r inside of r = 1/2, -4 (1 - r)^2
+    outside; zero at the center and from r = 1 on. */
 inline double cubic_spline_slope(const double r)
 {
   if (r >= 1.)
@@ -28,11 +33,15 @@ inline double cubic_spline_slope(const double r)
   return r <= 0.5 ? r * (12. * r - 8.) : -4. * (1. - r) * (1. - r);
 }
 
-/** Kernel weight at @p xi = H^-1 dX: spline of the radius. */
+/**
+ * Weight of a neighbor by the radius in the space of the kernel: with the
+ * matrix H that maps the unit ball to the support (an ellipsoid) and the offset
+ * dX [m], xi = H^-1 dX is dimensionless and w = phi(|xi|).
+ */
 struct SphericalKernel
 {
   static double weight(const Vec xi) { return cubic_spline(norm(xi)); }
-  /** Gradient by xi. */
+  /** d w/d xi; the gradient by X is H^-T times it [1/m]. */
   static Vec slope(const Vec xi)
   {
     const double r = norm(xi);
@@ -40,7 +49,11 @@ struct SphericalKernel
   }
 };
 
-/** Product of splines along the kernel's axes (Wu & Wu 2018, Eq. 18). */
+/**
+ * Product of three splines along the kernel's axes, whose support is a box:
+ * w = phi(|xi_1|) phi(|xi_2|) phi(|xi_3|) (Wu & Wu 2018, Eq. 18). Same
+ * interface as the spherical kernel; loops take either as a template argument.
+ */
 struct TensorKernel
 {
   static double weight(const Vec xi)
@@ -59,117 +72,6 @@ struct TensorKernel
     return vec(s[0] * w[1] * w[2], w[0] * s[1] * w[2], w[0] * w[1] * s[2]);
   }
 };
-
-inline Eigen::Matrix3d to_eigen(const Mat &a)
-{
-  Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      m(i, j) = a(i, j);
-  return m;
-}
-
-inline Mat from_eigen(const Eigen::Matrix3d &m)
-{
-  Mat a = Mat::zero();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      a.set(i, j, m(i, j));
-  return a;
-}
-
-/**
- * Inverse of a symmetric moment matrix whose small eigenvalues are damped:
- * 1/e becomes e/threshold^2 below @p threshold, continuous there and zero
- * where a direction is lost. @p n_damped counts the damped directions.
- */
-inline Mat damped_inverse(const Mat &moment, const double threshold,
-                          int &n_damped)
-{
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.compute(to_eigen(moment));
-  n_damped = 0;
-  Eigen::Vector3d inverse;
-  for (int i = 0; i < 3; ++i)
-  {
-    const double e = std::max(0., solver.eigenvalues()[i]);
-    inverse[i] = e < threshold ? e / (threshold * threshold) : 1. / e;
-    n_damped += e < threshold;
-  }
-  return from_eigen(solver.eigenvectors() * inverse.asDiagonal() *
-                    solver.eigenvectors().transpose());
-}
-
-/** Remove the tensile principal stresses of s (xx, yy, zz, xy, yz, xz). */
-inline void cut_tension(double s[6])
-{
-  Eigen::Matrix3d m;
-  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(m);
-  if (!(solver.eigenvalues()[2] > 0.))
-    return;
-  const Eigen::Matrix3d &v = solver.eigenvectors();
-  for (int i = 0; i < 3; ++i)
-    if (solver.eigenvalues()[i] > 0.)
-      m -= solver.eigenvalues()[i] * v.col(i) * v.col(i).transpose();
-  const double cut[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)};
-  std::copy(cut, cut + 6, s);
-}
-
-/** Largest principal value of s (xx, yy, zz, xy, yz, xz). */
-inline double largest_principal(const double s[6])
-{
-  Eigen::Matrix3d m;
-  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(m, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[2];
-}
-
-/** Middle eigenvalue of a symmetric matrix. */
-inline double middle_eigenvalue(const Mat &moment)
-{
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.compute(to_eigen(moment), Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[1];
-}
-
-/** Limit the singular values of @p h = U S V^T to [low, high] (scaled by the
-    initial semi-axes @p axes: h = h' diag(axes)). */
-inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
-                        const double high)
-{
-  Eigen::Matrix3d m = to_eigen(h);
-  for (int j = 0; j < 3; ++j)
-    m.col(j) /= axes[j];
-  const Eigen::Matrix3d c = m.transpose() * m;
-  // Most kernels are far from the limits; the norm tells without eigenvalues.
-  const double distance = (c - Eigen::Matrix3d::Identity()).norm();
-  if (distance < std::min(1. - low * low, high * high - 1.))
-    return h;
-  // m = U S V^T: with V from m^T m, m V diag(s'/s) V^T has singular values s'.
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(c);
-  Eigen::Vector3d factor;
-  for (int i = 0; i < 3; ++i)
-  {
-    const double s = std::sqrt(std::max(1e-12, solver.eigenvalues()[i]));
-    factor[i] = std::clamp(s, low, high) / s;
-  }
-  Eigen::Matrix3d clamped = m * solver.eigenvectors() * factor.asDiagonal() *
-                            solver.eigenvectors().transpose();
-  for (int j = 0; j < 3; ++j)
-    clamped.col(j) *= axes[j];
-  return from_eigen(clamped);
-}
-
-/** The same for kernels that start as any matrix: h = h' @p initial. */
-inline Mat clamp_kernel(const Mat &h, const Mat &initial, const double low,
-                        const double high)
-{
-  const Mat stretch = h * inverse(initial);
-  return clamp_kernel(stretch, vec(1., 1., 1.), low, high) * initial;
-}
 } // namespace sabot
 
 #endif

@@ -12,28 +12,37 @@
 /**
  * Four cells at once: a Pack holds one number of each, in the lanes of one
  * AVX register. Every lane sees the same operations wherever its cell stands,
- * so results do not depend on how cells are grouped.
+ * so results do not depend on how cells are grouped, and so not on the number
+ * of ranks.
+ *
+ * Branches become comparisons and selects: a comparison of packs gives a pack
+ * of long integers, -1 where true, and c ? a : b takes lane by lane. A lane
+ * without a cell repeats one that exists, so that nothing is ever infinite.
  */
 namespace sabot
 {
 typedef double Pack __attribute__((vector_size(32)));
 constexpr std::size_t n_lanes = 4;
 
+/** Four 3x3 matrices: m[i][j] holds the entry (i, j) of each. */
 struct PackMat
 {
   Pack m[3][3];
 };
 
+/** The greater of a and b in each lane; b where either is not a number. */
 inline Pack pack_max(const Pack a, const Pack b)
 {
   return a > b ? a : b;
 }
 
+/** The lesser of a and b in each lane; b where either is not a number. */
 inline Pack pack_min(const Pack a, const Pack b)
 {
   return a < b ? a : b;
 }
 
+/** Square root of each lane, correctly rounded. */
 inline Pack pack_sqrt(const Pack a)
 {
 #ifdef __AVX__
@@ -45,7 +54,9 @@ inline Pack pack_sqrt(const Pack a)
 }
 
 /** Cube root for 1e-3 < a < 1e3, to round-off: Halley's iteration,
-    y <- y (y^3 + 2 a)/(2 y^3 + a), from the tangent at 1. */
+    y <- y (y^3 + 2 a)/(2 y^3 + a), from the tangent at 1. Of a volume ratio,
+    which stays well within these bounds in any cell that a run keeps; a fixed
+    number of iterations has no branch. */
 inline Pack pack_cbrt(const Pack a)
 {
   Pack y = (2. + a) / 3.;
@@ -57,17 +68,20 @@ inline Pack pack_cbrt(const Pack a)
   return y;
 }
 
+/** Four doubles at @p p, which is aligned to 32 bytes. */
 inline Pack load_pack(const double *const p)
 {
   return *reinterpret_cast<const Pack *>(p);
 }
 
+/** And back; same alignment. */
 inline void store_pack(double *const p, const Pack a)
 {
   *reinterpret_cast<Pack *>(p) = a;
 }
 
-/** The x, y and z of four nodal vectors. */
+/** The x, y and z of four nodal vectors, one @p node of each cell: out[d] holds
+    component d of the four. Three shuffles of four loads. */
 inline void gather(const Vec *const nodal, const std::uint32_t node[n_lanes],
                    Pack out[3])
 {
@@ -82,7 +96,7 @@ inline void gather(const Vec *const nodal, const std::uint32_t node[n_lanes],
   out[2] = __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7);
 }
 
-/** Back: one vector per lane. */
+/** Back from components: one nodal vector per lane, fourth components zero. */
 inline void unpack(const Pack x, const Pack y, const Pack z, Vec out[n_lanes])
 {
   const Pack zero = {};
@@ -96,6 +110,7 @@ inline void unpack(const Pack x, const Pack y, const Pack z, Vec out[n_lanes])
   out[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
 }
 
+/** det a of each lane, expanded by the first row. */
 inline Pack determinant(const PackMat &a)
 {
   return a.m[0][0] * (a.m[1][1] * a.m[2][2] - a.m[1][2] * a.m[2][1]) +
@@ -103,7 +118,8 @@ inline Pack determinant(const PackMat &a)
          a.m[0][2] * (a.m[1][0] * a.m[2][1] - a.m[1][1] * a.m[2][0]);
 }
 
-/** det a times the inverse of a. */
+/** det a times the inverse of a, the transposed cofactors: no division, and
+    right where a is singular. */
 inline PackMat adjugate(const PackMat &a)
 {
   PackMat r;
@@ -126,6 +142,7 @@ inline Mat lane_of(const PackMat &a, const std::size_t lane)
   return r;
 }
 
+/** c_ij = a_ik b_kj of each lane. */
 inline PackMat multiply(const PackMat &a, const PackMat &b)
 {
   PackMat c;

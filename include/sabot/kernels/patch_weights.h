@@ -1,12 +1,8 @@
 #ifndef sabot_kernels_patch_weights_h
 #define sabot_kernels_patch_weights_h
 
-#include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/vec.h"
 
-#include <Eigen/Dense>
-
-#include <cmath>
 #include <vector>
 
 namespace sabot
@@ -17,45 +13,19 @@ namespace sabot
  * with the cubic spline phi, the nodes' areas A_a and tangential offsets xi,
  * eta from the centre, such that sum w = 1 and sum w xi = sum w eta = 0 (no
  * moment about the normal's plane).
- * @param point  x_a [m]; @param area A_a [m^2]; @param normal unit, of the
- * surface; @param radius R [m]; @param weight out, one per node.
- * @return false when the nodes in reach do not span the surface or a weight
- * would pull by more than @p largest_pull.
+ * @param point   x_a [m]
+ * @param area    A_a [m^2], parallel to point
+ * @param normal  of the surface, unit length
+ * @param radius  R [m], beyond which a node takes nothing
+ * @param weight  out: w_a, parallel to point, dimensionless
+ * @return false when the nodes in reach do not span the surface (the moment
+ * matrix of 1, xi, eta is nearly singular), or when a node would be pulled by
+ * more than a tenth of the force; the weights are then of no use.
  */
-inline bool patch_weights(const std::vector<Vec> &point,
-                          const std::vector<double> &area, const Vec centre,
-                          const Vec normal, const double radius,
-                          std::vector<double> &weight)
-{
-  constexpr double largest_pull = 0.1;
-  const Vec across =
-      std::abs(normal[0]) < 0.7 ? vec(1., 0., 0.) : vec(0., 1., 0.);
-  Vec first = across - dot(across, normal) * normal;
-  first = (1. / norm(first)) * first;
-  const Vec second = cross(normal, first);
-  const std::size_t n = point.size();
-  weight.resize(n);
-  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
-  for (std::size_t a = 0; a < n; ++a)
-  {
-    const Vec offset = (1. / radius) * (point[a] - centre);
-    weight[a] = cubic_spline(norm(offset)) * area[a];
-    const Eigen::Vector3d p(1., dot(offset, first), dot(offset, second));
-    M += weight[a] * p * p.transpose();
-  }
-  const double scale = M(0, 0);
-  if (!(scale > 0.) || !(M.determinant() > 1e-5 * scale * scale * scale))
-    return false;
-  const Eigen::Vector3d c = M.inverse().col(0);
-  for (std::size_t a = 0; a < n; ++a)
-  {
-    const Vec offset = (1. / radius) * (point[a] - centre);
-    weight[a] *= c[0] + c[1] * dot(offset, first) + c[2] * dot(offset, second);
-    if (weight[a] < -largest_pull)
-      return false;
-  }
-  return true;
-}
+bool patch_weights(const std::vector<Vec> &point,
+                   const std::vector<double> &area, const Vec centre,
+                   const Vec normal, const double radius,
+                   std::vector<double> &weight);
 } // namespace sabot
 
 #endif

@@ -5,8 +5,13 @@
 
 namespace sabot
 {
-/** R of the polar decomposition F = R U, det F > 0, by Newton's iteration
-    R <- (R + R^-T)/2 (Higham 1986), which converges quadratically. */
+/**
+ * R of the polar decomposition F = R U, by Newton's iteration
+ * R <- (R + R^-T)/2 (Higham 1986), which converges quadratically: to round-off
+ * in about five iterations for moderate stretch. U is symmetric positive
+ * definite, R takes the reference frame to the present one. @pre det F > 0, not
+ * checked.
+ */
 inline Mat rotation_of(const Mat &F)
 {
   Mat R = (1. / std::cbrt(determinant(F))) * F;
@@ -26,8 +31,14 @@ inline Mat rotation_of(const Mat &F)
   return R;
 }
 
-/** Spin increment (w_xy, w_yz, w_xz) whose Cayley transform
-    (1 - w/2)^-1 (1 + w/2) is the rotation @p R by less than half a turn. */
+/**
+ * Spin increment (w_xy, w_yz, w_xz) whose Cayley transform
+ * (1 - w/2)^-1 (1 + w/2) is the rotation @p R by less than half a turn:
+ *
+ *   w = 2/(1 + tr R) (R - R^T),
+ *
+ * so that rotate_symmetric() with it rotates by R exactly.
+ */
 inline void cayley_spin(const Mat &R, double spin[3])
 {
   const double s = 2. / (1. + trace(R));

@@ -50,7 +50,8 @@ inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
   }
 }
 
-/** Rotate the strain increments of the middle configuration to the end of the
+/** Rotate the @p n strain increments (tensor components, not engineering
+    shear) of the middle configuration to the end of the
     step, where the rotated stress is: by half of @p spin. Without it a
     hypoelastic update is of first order only and a vibrating, spinning body
     gains energy. At most @p capacity points. */
@@ -70,8 +71,12 @@ inline void rotate_strain_to_end(const std::size_t n,
   rotate_symmetric(n, half_spin, strain);
 }
 
-/** energy += half_volume * stress : strain_increment for @p n points; called
-    with the old (rotated) and the new stress it is the trapezoidal rule. */
+/**
+ * energy += half_volume stress : strain_increment for @p n points; called with
+ * the old (rotated) and the new stress it is the trapezoidal rule. Stress [Pa]
+ * and strain increments by components [6][n], off-diagonal ones counted twice;
+ * half_volume: half of the mean volume of the step [m^3]; energy [J].
+ */
 inline void half_work(const std::size_t n, const double *const stress[6],
                       const double *const strain[6], const double *half_volume,
                       double *energy)
@@ -86,8 +91,15 @@ inline void half_work(const std::size_t n, const double *const stress[6],
                stress[5][k] * strain[5][k]));
 }
 
-/** Artificial bulk viscosity [Pa], q = rho h (c1 c |d| + c2 h d^2) in
-    compression (d = tr D < 0), else 0 (von Neumann & Richtmyer; Landshoff). */
+/**
+ * Artificial bulk viscosity, a pressure [Pa] that spreads shocks over some
+ * cells: q = rho h (c1 c |d| + c2 h d^2) in compression (d = tr D < 0), else 0
+ * (von Neumann & Richtmyer 1950; the linear term: Landshoff 1955).
+ * @param density  present one, rho [kg/m^3]
+ * @param c        speed of sound [m/s]
+ * @param h        size of the cell in the direction of the shock [m]
+ * @param rate     d [1/s]
+ */
 inline double bulk_viscosity_pressure(const double density, const double c,
                                       const double h, const double rate,
                                       const double linear,
@@ -97,7 +109,8 @@ inline double bulk_viscosity_pressure(const double density, const double c,
   return density * h * d * (linear * c + quadratic * h * d);
 }
 
-/** Von Mises stress of one tensor. */
+/** Von Mises stress sqrt(3/2 s : s) of the deviator s of one tensor (xx, yy,
+    zz, xy, yz, xz), in its unit. */
 inline double von_mises(const double s[6])
 {
   const double m = (s[0] + s[1] + s[2]) / 3.;

@@ -13,25 +13,35 @@
  *
  * A nodal vector is stored as four doubles (x, y, z, 0) in one 32-byte GCC
  * vector: one aligned load per gathered node, never across a cache line, and
- * the same source compiles to one AVX register or two SSE registers.
+ * the same source compiles to one AVX register or two SSE registers. The
+ * compiler gives such a type +, -, *, / component by component, also with a
+ * double, and v[d] for a component.
+ *
+ * The fourth lane is zero in everything that is stored, and every function here
+ * keeps it so but broadcast() and division by a vector. Nothing checks units or
+ * frames: a Vec is a position [m] or a force [N] as its name says.
  */
 namespace sabot
 {
 typedef double Vec __attribute__((vector_size(32)));
 
+/** (x, y, z) with the fourth lane zero. */
 inline Vec vec(const double x, const double y, const double z)
 {
   return Vec{x, y, z, 0.};
 }
 
+/** @p a in all four lanes, as a divisor: v / broadcast(m). */
 inline Vec broadcast(const double a)
 {
   return Vec{a, a, a, a};
 }
 
-/** Single-precision storage of a Vec, 16 bytes. */
+/** Single-precision storage of a Vec, 16 bytes: half of the memory that a loop
+    over bonds has to read, for numbers known to seven digits anyway. */
 typedef float StoredVec __attribute__((vector_size(16)));
 
+/** Widened; exact. */
 inline Vec load(const StoredVec a)
 {
 #ifdef __AVX__ // GCC 12 converts the halves one by one otherwise
@@ -41,6 +51,7 @@ inline Vec load(const StoredVec a)
 #endif
 }
 
+/** Rounded to the nearest float, component by component. */
 inline StoredVec store(const Vec a)
 {
 #ifdef __AVX__
@@ -50,39 +61,50 @@ inline StoredVec store(const Vec a)
 #endif
 }
 
+/** a . b of the first three components, summed from x to z. */
 inline double dot(const Vec a, const Vec b)
 {
   const Vec c = a * b;
   return c[0] + c[1] + c[2];
 }
 
+/** |a|^2. */
 inline double norm_square(const Vec a)
 {
   return dot(a, a);
 }
 
+/** |a|. */
 inline double norm(const Vec a)
 {
   return std::sqrt(dot(a, a));
 }
 
+/** a x b, right-handed. */
 inline Vec cross(const Vec a, const Vec b)
 {
   return Vec{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
              a[0] * b[1] - a[1] * b[0], 0.};
 }
 
-/** 3x3 matrix, three rows; the fourth lane of every row is zero. */
+/**
+ * 3x3 matrix, three rows; the fourth lane of every row is zero. Not initialized
+ * by itself: start sums with zero(). Not every matrix is a tensor: of a
+ * deformation gradient the first index is of the present frame, the second one
+ * of the reference.
+ */
 struct Mat
 {
   Vec row[3];
 
   static Mat zero() { return {{Vec{}, Vec{}, Vec{}}}; }
   static Mat identity() { return {{vec(1, 0, 0), vec(0, 1, 0), vec(0, 0, 1)}}; }
+  // a(i, j): row i, column j, both from 0
   double operator()(const int i, const int j) const { return row[i][j]; }
   void set(const int i, const int j, const double a) { row[i][j] = a; }
 };
 
+// Sums, and products with a scalar, entry by entry.
 inline Mat operator+(const Mat &a, const Mat &b)
 {
   return {{a.row[0] + b.row[0], a.row[1] + b.row[1], a.row[2] + b.row[2]}};
@@ -98,7 +120,7 @@ inline Mat operator*(const double s, const Mat &a)
   return {{s * a.row[0], s * a.row[1], s * a.row[2]}};
 }
 
-/** a += b (outer product) c. */
+/** a += b (x) c, that is a_ij += b_i c_j. */
 inline void add_outer(Mat &a, const Vec b, const Vec c)
 {
   a.row[0] += b[0] * c;
@@ -106,11 +128,13 @@ inline void add_outer(Mat &a, const Vec b, const Vec c)
   a.row[2] += b[2] * c;
 }
 
+/** a b; sums across lanes, see multiply_columns(). */
 inline Vec operator*(const Mat &a, const Vec b)
 {
   return vec(dot(a.row[0], b), dot(a.row[1], b), dot(a.row[2], b));
 }
 
+/** c_ik = a_ij b_jk, by combinations of the rows of b. */
 inline Mat operator*(const Mat &a, const Mat &b)
 {
   Mat c;
@@ -120,7 +144,9 @@ inline Mat operator*(const Mat &a, const Mat &b)
   return c;
 }
 
-/** a b without sums across lanes, for @p a given by its columns in row[]. */
+/** a b without sums across lanes, for @p a given by its columns in row[], that
+    is for transpose(a): the cheaper product, where many vectors meet one
+    matrix. */
 inline Vec multiply_columns(const Mat &columns, const Vec b)
 {
   return b[0] * columns.row[0] + b[1] * columns.row[1] + b[2] * columns.row[2];
@@ -132,17 +158,21 @@ inline Mat transpose(const Mat &a)
            vec(a(0, 2), a(1, 2), a(2, 2))}};
 }
 
+/** a_ii. */
 inline double trace(const Mat &a)
 {
   return a(0, 0) + a(1, 1) + a(2, 2);
 }
 
+/** Of rows r0 . (r1 x r2). */
 inline double determinant(const Mat &a)
 {
   return dot(a.row[0], cross(a.row[1], a.row[2]));
 }
 
-/** Inverse; the determinant is returned through @p det (not checked). */
+/** Inverse by cofactors. The determinant is returned through @p det and not
+    checked: where it is zero the entries are infinite or not a number, and the
+    caller has to look. */
 inline Mat inverse(const Mat &a, double &det)
 {
   const Vec c0 = cross(a.row[1], a.row[2]), c1 = cross(a.row[2], a.row[0]),
@@ -152,6 +182,7 @@ inline Mat inverse(const Mat &a, double &det)
   return transpose(Mat{{r * c0, r * c1, r * c2}});
 }
 
+/** The same where the determinant is known not to be zero. */
 inline Mat inverse(const Mat &a)
 {
   double det;

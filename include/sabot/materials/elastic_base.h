@@ -46,6 +46,10 @@ struct ElasticConstants
  *   4. the law may follow what depends on the whole stress (after_pressure).
  *
  * Of the arrays of state the equation's come first, then the law's.
+ *
+ * The two meet in the stress alone, so that any law goes with any equation of
+ * state. What depends on the equation the law asks of it: stiffens(), and the
+ * bulk modulus at rest.
  */
 class ElasticBase : public Material
 {

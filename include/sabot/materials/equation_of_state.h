@@ -16,6 +16,11 @@ namespace sabot
  *
  * Its entries stand in a subsection of its name, below the material's. No
  * function is collective.
+ *
+ * The internal energy that an equation may follow is that of the point alone:
+ * the work of its stresses, the deviator's and the viscous pressure's included;
+ * what conduction brings is the temperature's business. Volume enters as
+ * J = rho_0/rho = det F, of the whole motion, not by integrating a rate.
  */
 class EquationOfState
 {

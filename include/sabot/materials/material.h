@@ -76,6 +76,20 @@ struct StateVariable
  * them the deviator, or are a Flow of RateDependentPlasticity. Its entries
  * stand in a subsection of its name, below the material's.
  *
+ * In a parameter file, with the law's own entries in a subsection of its name:
+ *
+ *     subsection Materials
+ *       subsection al6061-t6
+ *         set Model           = Johnson-Cook
+ *         set Density         = 2700 kg/m^3
+ *         set Young's modulus = 68.9 GPa
+ *         set Poisson's ratio = 0.33
+ *         subsection Johnson-Cook
+ *           set Initial yield stress = 324 MPa
+ *         end
+ *       end
+ *     end
+ *
  * Objects do not change once made and hold no state of points, so that one
  * serves all bodies and threads. No function is collective.
  */

@@ -42,6 +42,11 @@ struct ThermalParameters
  * by safeguarded Newton on the yielding points; then s is scaled by
  * theta = 1 - 3 G d/q. States: "effective plastic strain", "temperature".
  *
+ * The left side falls with d, as sigma_y does not: there is one root, between 0
+ * and q/(3 G), and Newton's steps are taken while they stay within the bracket
+ * that is known to hold it, else halved. Where sigma_y has a power of eps, the
+ * first guess leaves the slope at eps = 0 out, which has no bound.
+ *
  * A new law of this kind is a Flow, its entries and a registration, as in
  * source/materials/zerilli_armstrong.cc. The template is instantiated there,
  * with the Flow inlined into the loop over points.

@@ -34,6 +34,11 @@ struct SteinbergGuinanParameters
  * with J^-1 the compression rho/rho_0. There is no rate effect: the model is
  * meant for rates above 1e5 1/s. At T >= T_m neither strength nor shear
  * modulus is left, and neither is ever negative.
+ *
+ * Temperature and pressure are those of the start of the step, so that the
+ * return has one unknown; G is as of the start, too, in the trial deviator.
+ * With this law the shear modulus follows the pressure: the stable step needs
+ * `stiffening`, for which after_pressure() takes the larger of both moduli.
  */
 struct SteinbergGuinanFlow
 {

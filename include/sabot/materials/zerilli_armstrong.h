@@ -29,6 +29,11 @@ struct ZerilliArmstrongParameters
  *
  * T in K, rate in 1/s, not below 1e-12 1/s, where the logarithm would end. The
  * law has no melting; at T >= T_m, a parameter of its own, strength is 0.
+ *
+ * The exponent of the rate is C4 T: exp(C4 T ln rate) = rate^(C4 T), so that
+ * the effect of rate grows with temperature while exp(-C3 T) takes strength
+ * away. The slope with eps holds the rate's part, as strain and rate grow
+ * together within a step.
  */
 template <bool bcc>
 struct ZerilliArmstrongFlow

@@ -27,6 +27,17 @@ struct CheckpointHeader
  * are written new, flushed to the disk and renamed; the last two are kept, as
  * the newest may be what a failing disk left.
  *
+ * In the HDF5 part, all as bytes:
+ *
+ *     header      format, version, number of ranks, step, time (hexadecimal)
+ *     parameters  the expanded scene, as in parameters.prm
+ *     index       a line per array: rank, entries, size of one, SHA-256, name
+ *     sha256      of header, index and parameters together
+ *     rank R/N    the N-th array of rank R, as it lay in memory
+ *
+ * and after it, "\nSHA-256 " and the digest of all bytes before, which is
+ * looked at first: HDF5 may do anything with a damaged file.
+ *
  * Rank 0 writes for all, one array at a time, so that no rank needs memory for
  * the state of the others. Bits are stored as they are: a resumed run gives the
  * results of a straight one, on a machine of the same byte order.

@@ -6,6 +6,9 @@
 
 namespace sabot
 {
+// What a run leaves must be whole or not there, and a full disk must be told as
+// such: all files of the program but log.txt go through these.
+
 /** Create a folder and those above it; one that is there already is right.
     IOError with the system's reason. Not collective, as all of these: one rank
     calls them and tells the others. */

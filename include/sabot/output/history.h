@@ -17,6 +17,12 @@ namespace sabot
  * in memory and written whole, new then renamed. Python reads a table with
  * h5py.File("history.h5")["ledger"]["kinetic [J]"]. Rows are appended on all
  * ranks alike, so that each can save them.
+ *
+ *     ledger      time, step size, the terms of the energy (energy_terms), the
+ *                 total and its residual
+ *     <body>      time, mass, velocity, kinetic energy, bounds, internal
+ *                 energy, and what the kind of body knows besides
+ *     quantities  time, and the scene's quantities of interest
  */
 class History
 {

@@ -19,6 +19,16 @@ class VtuWriter;
  * The folder of a run and the files in it that its outputs share: fields of
  * all bodies (fields/ and sabot.pvd) and histories (history.h5). Two outputs
  * of one kind thus add to one file, and no time is written twice.
+ *
+ * The run makes it, fills the histories and hands it to its outputs:
+ *
+ *     for (const auto &output : outputs)
+ *       output->open(files);
+ *     ...                                  // after each step
+ *     for (const auto &output : outputs)
+ *       output->write_when_due({time, step, is_last, bodies}, slack, files);
+ *
+ * An output of another kind needs the folder and the communicator only.
  */
 class RunFiles
 {

@@ -19,6 +19,12 @@ namespace sabot
  * components XX, YY, ZZ, XY, YZ, XZ; points are in current positions [m],
  * fields in SI units. Particles are vertices.
  *
+ *
+ *     sabot.pvd                    which bodies at which times
+ *     fields/plate_000012.vtu      body "plate", frame 12, one rank
+ *     fields/plate_000012.pvtu     the same of several ranks, joined from
+ *     fields/plate_000012_0.vtu    what rank 0 owns, and so on
+ *
  * All functions are collective and throw IOError on all ranks when one could
  * not write. A body's name becomes part of file names, blanks, slashes and
  * quotes as hyphens.

@@ -70,7 +70,7 @@ public:
   std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
   std::vector<std::string> warnings;
-  std::vector<std::string> notes; // for `sabot check`, e.g. mesh quality
+  std::vector<std::string> notes; // old names in the file; what meshes are like
   /** True where nothing holds a body from outside, so that linear momentum
       must be constant. */
   bool is_free = true;
@@ -78,7 +78,7 @@ public:
 private:
   void read_settings();
   void build_materials(const ParameterFile &file);
-  void build_couplings(const ParameterFile &file);
+  void build_couplings();
   void build_outputs();
   void build_quantities();
   std::vector<std::string> names_of(const std::string &list) const;

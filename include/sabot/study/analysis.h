@@ -41,7 +41,8 @@ Convergence fit_convergence(const std::vector<double> &spacing,
 std::vector<std::size_t> pareto_front(const std::vector<double> &cost,
                                       const std::vector<double> &error);
 
-/** A run as the price list sees it. */
+/** A run as the price list sees it: where it stands among the combinations of
+    values, what it took and what it gave. */
 struct PricedRun
 {
   std::vector<std::size_t> choice; // per parameter, number of its value
@@ -50,7 +51,9 @@ struct PricedRun
 };
 
 /** What a value of a parameter costs and changes against its first value: the
-    mean over the pairs of runs that differ in that alone. */
+    mean over the pairs of runs that differ in that alone. In a study that
+    varies one parameter at a time that is one pair, in a grid one for each
+    combination of the others. */
 struct Price
 {
   std::size_t parameter, value;

@@ -33,8 +33,18 @@ struct Chart
     classes "title", "grid" and "frame". Names of points show as tips. */
 std::string draw_svg(const Chart &chart);
 
-/** For the program that draws PNG files: what draw_chart() of
-    source/charts/xy_chart.h reads. */
+/**
+ * For the program that draws PNG files: what draw_chart() of
+ * source/charts/xy_chart.h reads,
+ *
+ *     {"name": ..., "title": ..., "x_label": ..., "y_label": ...,
+ *      "is_x_logarithmic": false,
+ *      "series": [{"label": ..., "color": "#0072B2", "has_line": true,
+ *                  "has_points": false, "is_dashed": false,
+ *                  "points": [[x, y], ...]}, ...]}
+ *
+ * with the colors of the SVG; points that cannot be drawn are left out.
+ */
 nlohmann::ordered_json to_json(const Chart &chart);
 
 /** Round numbers (1, 2 or 5 times a power of ten apart) between @p low and

@@ -26,8 +26,13 @@ struct PictureArguments
 };
 
 /** For the program that draws: a section through a run (source/charts), with
-    absolute paths and SI numbers. InputError, which names the option, where a
-    value has no meaning. */
+    absolute paths and SI numbers; what was not asked for is not there:
+
+        {"kind": "section", "folder": "/...", "file": "/.../section.png",
+         "title": ..., "field": "pressure", "times": [2e-5], "normal": "y",
+         "position": 0.0, "range": [0, 1e9], "window": [-0.03, 0.03, ...]}
+
+    InputError, which names the option, where a value has no meaning. */
 nlohmann::ordered_json section_of(const PictureArguments &arguments);
 
 /**

@@ -65,6 +65,10 @@ struct ConvergenceSeries
  * quantity, the reference of its errors, convergence, prices, Pareto front.
  * All found at construction.
  * What other runs than complete ones gave does not count.
+ *
+ * The report shades the runs of the Pareto fronts, and lists the prices: what a
+ * value of a parameter saves in CPU time and moves in the quantity, against the
+ * base's value, all else equal.
  */
 struct StudyResults
 {

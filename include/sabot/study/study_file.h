@@ -68,6 +68,22 @@ struct StudyRun
  * and checks everything, including each run's parameters, before anything is
  * run; InputError names file and line. Runs are each value with the first
  * values of all other parameters, or all combinations (a grid).
+ *
+ *     set Scene = ../perforation/base.prm     # beside the study's file
+ *     subsection Parameters
+ *       subsection spacing                    # any name
+ *         set Role    = spacing
+ *         set Entries = Bodies/core/Nodal spacing; Bodies/plate/Cell size
+ *         set Values  = 1.5 mm; 1.05 mm; 0.75 mm
+ *       end
+ *     end
+ *     subsection Quantities
+ *       subsection residual velocity          # of the scene
+ *         set Measured value = 217 m/s
+ *       end
+ *     end
+ *
+ * A value with vertical bars has a part for each entry: "1.5 mm | 3 mm".
  */
 struct StudyFile
 {

@@ -1,78 +1,13 @@
+// A body of hexahedra: its nodes on this rank, the life of a step, and reports.
 #include "sabot/bodies/fem/fem_body.h"
 
-#include "sabot/base/parameters.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body_report.h"
-#include "sabot/bodies/fem/one_point.h"
 
 #include <algorithm>
 
 namespace sabot
 {
-void FemOptions::declare_parameters(Parameters &prm)
-{
-  Registry<Hexahedra>::declare_choice(prm, "Integration", "one point",
-                                      "Points of a cell.");
-  Registry<OnePoint>::declare_choice(prm, "Hourglass control", "viscous",
-                                     "Of cells with one point.");
-  prm.declare_entry("Hourglass coefficient", "0.1",
-                    quantity(Dimension::none, 0., 1.), "Usually 0.03 to 0.15.");
-  prm.declare_entry("Heat conduction", "false", boolean(),
-                    "Implicit conduction inside the body, faces insulated. "
-                    "Needs a law with temperature and conductivity.");
-  prm.declare_entry("Conduction interval", "1 us",
-                    quantity(Dimension::time, 0., 1e3),
-                    "Time between conduction steps.");
-  prm.declare_entry(
-      "Objective rate", "Jaumann", one_of("Jaumann|Green-Naghdi"),
-      "Rate of the stress: with the spin of the velocity gradient, or with "
-      "that of the rotation R of F = R U, which does not oscillate in large "
-      "elastic shear.");
-  prm.declare_entry("Linear bulk viscosity", "0.06",
-                    quantity(Dimension::none, 0., 1.),
-                    "Coefficient of rho c h |div v| in compression.");
-  prm.declare_entry("Quadratic bulk viscosity", "1.5",
-                    quantity(Dimension::none, 0., 10.),
-                    "Coefficient of rho h^2 (div v)^2 in compression.");
-  prm.declare_entry("Erosion plastic strain", "1e10",
-                    quantity(Dimension::none, 0.),
-                    "A cell is eroded when its effective plastic strain "
-                    "exceeds this. 1e10: never.");
-  prm.declare_entry("Erosion damage", "1e10", quantity(Dimension::none, 0.),
-                    "A cell is eroded when the material's damage reaches this "
-                    "(1: fully damaged). 1e10: never.");
-  prm.declare_entry("Erosion step", "0 s", quantity(Dimension::time, 0., 1.),
-                    "A cell is eroded when its own stable step falls below "
-                    "this. 0: never.");
-  prm.declare_entry("Inversion", "stop", one_of("stop|erode|shrink step"),
-                    "What to do when a cell is about to turn inside out: stop "
-                    "the run, erode the cell, or (shrink step) let no step "
-                    "take more than a quarter of a cell's volume.");
-}
-
-FemOptions FemOptions::parse(const Parameters &prm)
-{
-  FemOptions o;
-  o.integration = prm.get("Integration");
-  o.hourglass = prm.get("Hourglass control");
-  o.conducts_heat = prm.get_bool("Heat conduction");
-  o.conduction_interval = get_quantity(prm, "Conduction interval");
-  o.objective_rate = prm.get("Objective rate") == "Jaumann"
-                         ? ObjectiveRate::jaumann
-                         : ObjectiveRate::green_naghdi;
-  o.hourglass_coefficient = get_quantity(prm, "Hourglass coefficient");
-  o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
-  o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
-  o.erosion_plastic_strain = get_quantity(prm, "Erosion plastic strain");
-  o.erosion_damage = get_quantity(prm, "Erosion damage");
-  o.erosion_step = get_quantity(prm, "Erosion step");
-  const std::string inversion = prm.get("Inversion");
-  o.inversion = inversion == "erode"  ? Inversion::erode
-                : inversion == "stop" ? Inversion::stop
-                                      : Inversion::shrink;
-  return o;
-}
-
 FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                  std::shared_ptr<const Material> material,
                  const FemOptions &options)
@@ -80,30 +15,14 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
       options(options), n_global_cells(this->mesh.cells.size()),
       cells(Registry<Hexahedra>::get("Bodies/" + name + "/Integration",
                                      options.integration)
-                .make(name, options, this->material))
+                .make(name, options, this->material)),
+      boundary(name, this->mesh, options)
 {
-  for (const unsigned int boundary : options.symmetry_boundary_ids)
-  {
-    const int axis = symmetry_axes[boundary] = symmetry_axis(boundary);
-    for (std::size_t f = 0; f < this->mesh.boundary_faces.size(); ++f)
-      if (this->mesh.boundary_id[f] == boundary)
-      {
-        symmetry_planes.push_back(
-            {axis, this->mesh.nodes[this->mesh.boundary_faces[f][0]][axis]});
-        break;
-      }
-  }
-  const auto need = [&](const double limit, const std::string &variable,
-                        const std::string &entry)
-  {
-    if (limit < FemOptions::never && !has_state(variable))
-      throw InputError("Bodies/" + name + "/" + entry,
-                       "the body's material has no " + variable +
+  for (const ErosionLimit &limit : options.erosion_limits())
+    if (!has_state(limit.variable))
+      throw InputError("Bodies/" + name + "/" + limit.entry,
+                       "the body's material has no " + limit.variable +
                            "; use a law that has it or remove the entry");
-  };
-  need(options.erosion_plastic_strain, "effective plastic strain",
-       "Erosion plastic strain");
-  need(options.erosion_damage, "damage", "Erosion damage");
   if (options.conducts_heat && !(this->material->conductivity() > 0.))
     throw InputError("Bodies/" + name + "/Heat conduction",
                      "the body's material has no temperature or no thermal "
@@ -116,32 +35,12 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                      "\"Inversion = erode\") or the conduction");
 }
 
-void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
+void FemBody::lay_out_nodes(const LocalPart &part,
+                            const std::vector<int> &owner)
 {
-  communicator = comm;
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
-
-  // Cells of the owned nodes, then the nodes of these cells.
-  std::vector<GlobalIndex> owned, ghosts, cell_id;
-  for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] == rank)
-      owned.push_back(i);
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-  {
-    const auto &nodes = mesh.cells[c];
-    if (std::none_of(nodes.begin(), nodes.end(),
-                     [&](const GlobalIndex a) { return owner[a] == rank; }))
-      continue;
-    cell_id.push_back(c);
-    owned_cell.push_back(owner[*std::min_element(nodes.begin(), nodes.end())] ==
-                         rank);
-    for (const GlobalIndex a : nodes)
-      if (owner[a] != rank)
-        ghosts.push_back(a);
-  }
-  std::sort(ghosts.begin(), ghosts.end());
-  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  const auto owned_end = part.nodes.begin() + part.n_owned;
+  const std::vector<GlobalIndex> owned(part.nodes.begin(), owned_end),
+      ghosts(owned_end, part.nodes.end());
   std::vector<int> ghost_owner;
   for (const GlobalIndex g : ghosts)
     ghost_owner.push_back(owner[g]);
@@ -151,46 +50,43 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
                       return std::lower_bound(owned.begin(), owned.end(), key) -
                              owned.begin();
                     });
-
-  std::vector<GlobalIndex> ids = owned;
-  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
-  std::unordered_map<GlobalIndex, std::uint32_t> local;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    local[ids[i]] = i;
-  nodal_state.resize(ids.size());
-  nodal_state.n_owned = owned.size();
-  nodal_state.global_id = ids;
+  nodal_state.resize(part.nodes.size());
+  nodal_state.n_owned = part.n_owned;
+  nodal_state.global_id = part.nodes;
   const auto &v = options.initial_velocity;
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  for (std::size_t i = 0; i < part.nodes.size(); ++i)
   {
-    const auto &p = mesh.nodes[ids[i]];
+    const auto &p = mesh.nodes[part.nodes[i]];
     nodal_state.reference_position[i] = nodal_state.position[i] =
         vec(p[0], p[1], p[2]);
     nodal_state.velocity[i] = vec(v[0], v[1], v[2]);
     nodal_state.force[i] = Vec{};
     nodal_state.lumped_mass[i] = 0.;
   }
+}
 
+void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
+{
+  communicator = comm;
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  const LocalPart part = find_local_part(mesh, owner, rank);
+  owned_cell = part.owned_cell;
+  lay_out_nodes(part, owner);
+  const auto connectivity = part.connectivity(mesh);
   // Masses add up in global cell order.
-  std::vector<std::array<std::uint32_t, 8>> connectivity;
-  for (const GlobalIndex c : cell_id)
-  {
-    std::array<std::uint32_t, 8> nodes;
-    for (int a = 0; a < 8; ++a)
-    {
-      nodes[a] = local.at(mesh.cells[c][a]);
-      nodal_state.lumped_mass[nodes[a]] +=
-          0.125 * material->density() * mesh.volume[c];
-    }
-    connectivity.push_back(nodes);
-  }
+  for (std::size_t e = 0; e < part.cells.size(); ++e)
+    for (const std::uint32_t a : connectivity[e])
+      nodal_state.lumped_mass[a] +=
+          0.125 * material->density() * mesh.volume[part.cells[e]];
   nodal_state.inertia = nodal_state.lumped_mass;
 
-  set_up_boundary(local);
-
-  cells->set_up(mesh, cell_id, connectivity);
+  boundary.set_up(mesh, part.local, nodal_state.n_owned, constraints);
+  cells->set_up(mesh, part.cells, connectivity);
   if (options.erodes())
-    set_up_erosion();
+    erosion = std::make_unique<FemErosion>(
+        options, *material, nodal_state, *cells, boundary, owned_cell,
+        mesh.boundary_faces.size(), communicator);
   mesh = HexMesh();
   if (options.conducts_heat)
   {
@@ -219,7 +115,15 @@ bool FemBody::update_topology(const unsigned int, const double time)
 {
   if (heat && time >= last_conduction + options.conduction_interval)
     conduct_heat(time);
-  return erosion && erode_cells();
+  if (!erosion || !erosion->erode())
+    return false;
+  ++surface_version;
+  return true;
+}
+
+const std::vector<char> *FemBody::free_nodes() const
+{
+  return erosion ? &erosion->free_nodes() : nullptr;
 }
 
 bool FemBody::has_state(const std::string &variable) const
@@ -266,10 +170,7 @@ void FemBody::add_energies(EnergyLedger &ledger) const
              norm_square(nodal_state.velocity[i]));
   ledger.external.add(constraints.work());
   if (erosion)
-  {
-    ledger.eroded.add(erosion->energy);
-    ledger.plastic_work.add(erosion->plastic_work);
-  }
+    erosion->add_energies(ledger);
   for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
@@ -304,7 +205,7 @@ BodyMeasures FemBody::measure() const
   if (has_state("temperature"))
     measures.own.push_back({"temperature max", "K", top[1]});
   if (erosion)
-    add_erosion_measures(measures);
+    erosion->add_measures(measures);
   return measures;
 }
 
@@ -314,7 +215,7 @@ BodyFacts FemBody::facts() const
   facts.material = material.get();
   facts.is_clamped = !options.clamped_boundary_ids.empty();
   facts.velocity = options.initial_velocity;
-  facts.spacing = options.cell_size;
+  facts.spacing.fill(options.cell_size);
   return facts;
 }
 
@@ -386,7 +287,10 @@ void FemBody::visit_state(StateVisitor &visitor)
   visitor.visit_array("force", nodal_state.force);
   visitor.visit_array("inertia", nodal_state.inertia);
   if (erosion)
-    visit_erosion(visitor);
+  {
+    erosion->visit_state(visitor);
+    visitor.visit_value("surface version", surface_version);
+  }
   cells->visit_state(visitor);
   if (heat)
   {
@@ -394,5 +298,39 @@ void FemBody::visit_state(StateVisitor &visitor)
     visitor.visit_value("last conduction", last_conduction);
   }
   visitor.visit_value("external work", constraints.work());
+}
+
+ContactSurface FemBody::contact_surface() const
+{
+  return boundary.surface(nodal_state.n_owned, material->bulk_modulus());
+}
+
+const std::vector<std::uint32_t> &FemBody::cell_of_faces() const
+{
+  if (erosion) // faces and cells come and go
+    known_cell_of_faces = erosion->cells_of_faces();
+  else if (known_cell_of_faces.size() != boundary.faces.size())
+    known_cell_of_faces = boundary.find_cells(*cells);
+  return known_cell_of_faces;
+}
+
+std::vector<std::array<std::size_t, 8>> FemBody::cells_behind_faces() const
+{
+  std::vector<std::array<std::size_t, 8>> behind;
+  for (const std::uint32_t e : cell_of_faces())
+  {
+    behind.emplace_back();
+    if (e != FemBoundary::no_cell)
+      std::copy(cells->connectivity[e].begin(), cells->connectivity[e].end(),
+                behind.back().begin());
+  }
+  return behind;
+}
+
+std::vector<double>
+FemBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
+{
+  return boundary.flow_stress(some_nodes, nodal_state.size(), *cells,
+                              cell_of_faces());
 }
 } // namespace sabot

@@ -1,4 +1,8 @@
-#include "sabot/bodies/fem/fem_body.h"
+// Faces of a body of hexahedra: prescribed velocities, symmetry planes, and
+// what couplings may touch.
+#include "sabot/bodies/fem/fem_boundary.h"
+
+#include "sabot/base/error.h"
 #include "sabot/geometry/boundary_planes.h"
 
 #include <algorithm>
@@ -30,21 +34,33 @@ Vec area_vector(const std::array<Vec, 4> &x)
 }
 } // namespace
 
-int FemBody::symmetry_axis(const unsigned int id) const
+FemBoundary::FemBoundary(const std::string &body_name, const HexMesh &mesh,
+                         const FemOptions &options)
+    : options(options)
 {
-  const int axis = plane_axis(mesh, id);
-  if (axis < 0)
-    throw InputError("Bodies/" + name + "/Symmetry faces",
-                     "these faces do not lie in one plane across the x, y or z "
-                     "axis; a symmetry plane must");
-  return axis;
+  for (const unsigned int id : options.symmetry_boundary_ids)
+  {
+    const std::optional<int> axis = plane_axis(mesh, id);
+    if (!axis)
+      throw InputError("Bodies/" + body_name + "/Symmetry faces",
+                       "these faces do not lie in one plane across the x, y or "
+                       "z axis; a symmetry plane must");
+    symmetry_axes[id] = *axis;
+    for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
+      if (mesh.boundary_id[f] == id)
+      {
+        symmetry_planes.push_back(
+            {*axis, mesh.nodes[mesh.boundary_faces[f][0]][*axis]});
+        break;
+      }
+  }
 }
 
-void FemBody::set_up_boundary(
-    const std::unordered_map<GlobalIndex, std::uint32_t> &local)
+void FemBoundary::set_up(
+    const HexMesh &mesh,
+    const std::unordered_map<GlobalIndex, std::uint32_t> &local,
+    const std::size_t n_owned, VelocityConstraints &constraints)
 {
-  // Where they share nodes, symmetry gives way to a driven face, and both to a
-  // clamped one.
   std::map<std::size_t, int> planes; // bit per axis
   std::vector<std::size_t> driven, clamped;
   double total_area = 0.;
@@ -62,7 +78,7 @@ void FemBody::set_up_boundary(
       if (found == local.end())
         continue;
       face[a] = found->second;
-      if (found->second >= nodal_state.n_owned)
+      if (found->second >= n_owned)
         continue;
       if (on_plane)
         planes[found->second] |= 1 << symmetry_axes.at(id);
@@ -71,21 +87,14 @@ void FemBody::set_up_boundary(
       if (contains(options.clamped_boundary_ids, id))
         clamped.push_back(found->second);
     }
-    // Nothing touches the body from inside of its other half.
     if (here && !on_plane)
     {
-      boundary_faces.push_back(face);
-      boundary_face_id.push_back(f);
+      faces.push_back(face);
+      face_id.push_back(f);
     }
   }
   typical_spacing = std::sqrt(total_area / mesh.boundary_faces.size());
-  for (const auto &[node, bits] : planes)
-    for (int d = 0; d < 3; ++d)
-      if (bits & 1 << d)
-      {
-        ++n_symmetry_planes[node];
-        constraints.prescribe(node, d, 0.);
-      }
+  hold_on_planes(planes, constraints);
   for (const std::size_t node : driven)
     for (int d = 0; d < 3; ++d)
       if (options.driven_components[d])
@@ -96,14 +105,27 @@ void FemBody::set_up_boundary(
   constraints.finish();
 }
 
-ContactSurface FemBody::contact_surface() const
+void FemBoundary::hold_on_planes(const std::map<std::size_t, int> &planes,
+                                 VelocityConstraints &constraints)
+{
+  for (const auto &[node, bits] : planes)
+    for (int d = 0; d < 3; ++d)
+      if (bits & 1 << d)
+      {
+        ++n_symmetry_planes[node];
+        constraints.prescribe(node, d, 0.);
+      }
+}
+
+ContactSurface FemBoundary::surface(const std::size_t n_owned,
+                                    const double bulk_modulus) const
 {
   ContactSurface surface;
-  surface.faces = boundary_faces;
-  surface.face_id = boundary_face_id;
-  for (const auto &face : boundary_faces)
+  surface.faces = faces;
+  surface.face_id = face_id;
+  for (const auto &face : faces)
     for (const std::size_t a : face)
-      if (a < nodal_state.n_owned)
+      if (a < n_owned)
         surface.nodes.push_back(a);
   std::sort(surface.nodes.begin(), surface.nodes.end());
   surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()),
@@ -115,43 +137,31 @@ ContactSurface FemBody::contact_surface() const
       surface.node_share.push_back(
           planes == n_symmetry_planes.end() ? 1. : 1. / (1 << planes->second));
     }
-  surface.bulk_modulus = material->bulk_modulus();
+  surface.bulk_modulus = bulk_modulus;
   surface.spacing = typical_spacing;
   surface.symmetry_planes = symmetry_planes;
   return surface;
 }
 
-const std::vector<std::uint32_t> &FemBody::cell_of_faces() const
+std::vector<std::uint32_t> FemBoundary::find_cells(const Hexahedra &cells) const
 {
-  std::vector<std::uint32_t> &found = known_cell_of_faces;
-  if (erosion)
-  {
-    // Faces and cells come and go.
-    const std::vector<std::uint32_t> &initial = erosion->initial;
-    found.clear();
-    for (const std::int32_t cell : erosion->face_cell)
-      found.push_back(std::lower_bound(initial.begin(), initial.end(),
-                                       std::uint32_t(cell)) -
-                      initial.begin());
-  }
-  if (found.size() == boundary_faces.size())
-    return found;
   std::map<std::size_t, std::vector<std::uint32_t>> cells_of;
-  for (const auto &face : boundary_faces)
+  for (const auto &face : faces)
     cells_of[face[0]];
-  for (std::size_t e = 0; e < cells->size(); ++e)
-    for (const std::uint32_t a : cells->connectivity[e])
+  for (std::size_t e = 0; e < cells.size(); ++e)
+    for (const std::uint32_t a : cells.connectivity[e])
     {
       const auto at = cells_of.find(a);
       if (at != cells_of.end())
         at->second.push_back(e);
     }
-  for (const auto &face : boundary_faces)
+  std::vector<std::uint32_t> found;
+  for (const auto &face : faces)
   {
     found.push_back(no_cell);
     for (const std::uint32_t e : cells_of[face[0]])
     {
-      const auto &nodes = cells->connectivity[e];
+      const auto &nodes = cells.connectivity[e];
       if (std::all_of(face.begin(), face.end(),
                       [&](const std::size_t a) {
                         return std::find(nodes.begin(), nodes.end(), a) !=
@@ -163,47 +173,34 @@ const std::vector<std::uint32_t> &FemBody::cell_of_faces() const
   return found;
 }
 
-std::vector<std::array<std::size_t, 8>> FemBody::cells_behind_faces() const
+std::vector<double> FemBoundary::flow_stress(
+    const std::vector<std::size_t> &some_nodes, const std::size_t n_local_nodes,
+    const Hexahedra &cells, const std::vector<std::uint32_t> &cell_of) const
 {
-  std::vector<std::array<std::size_t, 8>> behind;
-  for (const std::uint32_t e : cell_of_faces())
-  {
-    behind.emplace_back();
-    if (e != no_cell)
-      std::copy(cells->connectivity[e].begin(), cells->connectivity[e].end(),
-                behind.back().begin());
-  }
-  return behind;
-}
-
-std::vector<double>
-FemBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
-{
-  // Of the cells behind the faces around each node, in the mean.
-  std::vector<std::int64_t> number(nodal_state.size(), -1);
+  constexpr double does_not_yield = 1e300; // [Pa], see Body::flow_stress()
+  std::vector<std::int64_t> number(n_local_nodes, -1);
   for (std::size_t k = 0; k < some_nodes.size(); ++k)
     number[some_nodes[k]] = k;
-  const std::vector<std::uint32_t> &cell_of = cell_of_faces();
-  std::vector<std::size_t> faces, needed;
-  for (std::size_t f = 0; f < boundary_faces.size(); ++f)
-    if (std::any_of(boundary_faces[f].begin(), boundary_faces[f].end(),
+  std::vector<std::size_t> around, needed;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (std::any_of(faces[f].begin(), faces[f].end(),
                     [&](const std::size_t a) { return number[a] >= 0; }))
     {
-      faces.push_back(f);
+      around.push_back(f);
       needed.push_back(cell_of[f]);
     }
-  const std::vector<double> of_faces = cells->flow_stress(needed);
+  const std::vector<double> of_faces = cells.flow_stress(needed);
   std::vector<double> mean(some_nodes.size(), 0.);
   std::vector<int> n_faces(some_nodes.size(), 0);
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    for (const std::size_t a : boundary_faces[faces[k]])
+  for (std::size_t k = 0; k < around.size(); ++k)
+    for (const std::size_t a : faces[around[k]])
       if (number[a] >= 0)
       {
         mean[number[a]] += of_faces[k];
         ++n_faces[number[a]];
       }
   for (std::size_t k = 0; k < mean.size(); ++k)
-    mean[k] = n_faces[k] > 0 ? mean[k] / n_faces[k] : 1e300;
+    mean[k] = n_faces[k] > 0 ? mean[k] / n_faces[k] : does_not_yield;
   return mean;
 }
 } // namespace sabot

@@ -34,14 +34,14 @@ public:
   void declare(Parameters &prm, const Shape *const shape) const override
   {
     const std::string faces = face_names(shape);
-    prm.declare_entry("Symmetry faces", "", name_list(),
-                      "Plane faces on which the model is cut: no velocity "
-                      "across them, no contact with them. Among " +
-                          faces + ".");
-    prm.declare_entry("Cell size", "1 mm",
-                      quantity(Dimension::length, 1e-9, 1e2),
-                      "Edge of the cells; next to a carved zone, where the "
-                      "mesh is graded.");
+    prm.declare_knob("Symmetry faces", "", name_list(),
+                     "Plane faces on which the model is cut: no velocity "
+                     "across them, no contact with them. Among " +
+                         faces + ".");
+    prm.declare_knob("Cell size", "1 mm",
+                     quantity(Dimension::length, 1e-9, 1e2),
+                     "Edge of the cells; next to a carved zone, where the "
+                     "mesh is graded.");
     if (shape != nullptr)
       shape->declare_grading(prm);
     prm.declare_entry("Clamped faces", "", name_list(),

@@ -1,3 +1,4 @@
+// Heat conduction in hexahedra: assembly, solution, back to the cells.
 #include "sabot/bodies/fem/heat_conduction.h"
 
 #include "sabot/bodies/conduction_solver.h"

@@ -1,5 +1,5 @@
-// Material points of hexahedra, whatever the integration rule: stress, work,
-// states, and what becomes of cells that would turn inside out.
+// What all integration rules share: material points, steps, reports, and what
+// becomes of cells that would turn inside out.
 #include "sabot/bodies/fem/hexahedra.h"
 
 #include "sabot/base/error.h"

@@ -1,3 +1,4 @@
+// Rigid bodies: six degrees of freedom, with the nodes and faces of a mesh.
 #include "sabot/bodies/rigid/rigid_body.h"
 
 #include "sabot/base/parameters.h"
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace sabot
 {
@@ -91,34 +91,12 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   communicator = comm;
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  std::vector<GlobalIndex> ids, ghosts;
-  for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] == rank)
-      ids.push_back(i);
-  const std::size_t n_owned = ids.size();
-  std::vector<std::size_t> here;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-  {
-    const auto &nodes = mesh.cells[c];
-    if (std::none_of(nodes.begin(), nodes.end(),
-                     [&](const GlobalIndex a) { return owner[a] == rank; }))
-      continue;
-    here.push_back(c);
-    owned_cell.push_back(owner[*std::min_element(nodes.begin(), nodes.end())] ==
-                         rank);
-    for (const GlobalIndex a : nodes)
-      if (owner[a] != rank)
-        ghosts.push_back(a);
-  }
-  std::sort(ghosts.begin(), ghosts.end());
-  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
-  std::unordered_map<GlobalIndex, std::uint32_t> local;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    local[ids[i]] = i;
-
+  const LocalPart part = find_local_part(mesh, owner, rank);
+  owned_cell = part.owned_cell;
+  cells = part.connectivity(mesh);
+  const std::vector<GlobalIndex> &ids = part.nodes;
   nodal_state.resize(ids.size());
-  nodal_state.n_owned = n_owned;
+  nodal_state.n_owned = part.n_owned;
   nodal_state.global_id = ids;
   arm.resize(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i)
@@ -130,13 +108,15 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     nodal_state.force[i] = Vec{};
     nodal_state.lumped_mass[i] = nodal_state.inertia[i] = node_masses[ids[i]];
   }
-  for (const std::size_t c : here)
-  {
-    std::array<std::uint32_t, 8> nodes;
-    for (int a = 0; a < 8; ++a)
-      nodes[a] = local.at(mesh.cells[c][a]);
-    cells.push_back(nodes);
-  }
+  take_faces(part);
+  rigid_velocity.resize(part.n_owned);
+  set_velocities();
+  mesh = HexMesh();
+  node_masses.clear();
+}
+
+void RigidBody::take_faces(const LocalPart &part)
+{
   double area = 0.;
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {
@@ -146,9 +126,9 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     for (int a = 0; a < 4; ++a)
     {
       const GlobalIndex node = mesh.boundary_faces[f][a];
-      const auto found = local.find(node);
-      complete = complete && found != local.end();
-      face[a] = found != local.end() ? found->second : 0;
+      const auto found = part.local.find(node);
+      complete = complete && found != part.local.end();
+      face[a] = found != part.local.end() ? found->second : 0;
       x[a] = vec(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]);
     }
     area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
@@ -159,10 +139,6 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     }
   }
   typical_spacing = std::sqrt(area / mesh.boundary_faces.size());
-  rigid_velocity.resize(n_owned);
-  set_velocities();
-  mesh = HexMesh();
-  node_masses.clear();
 }
 
 Mat RigidBody::matrix(const std::array<double, 4> &q)
@@ -289,7 +265,7 @@ BodyFacts RigidBody::facts() const
   facts.material = material.get();
   facts.deforms = false;
   facts.velocity = options.initial_velocity;
-  facts.spacing = options.cell_size;
+  facts.spacing.fill(options.cell_size);
   return facts;
 }
 

@@ -11,9 +11,9 @@ class Rigid : public Discretization
 public:
   void declare(Parameters &prm, const Shape *) const override
   {
-    prm.declare_entry("Cell size", "1 mm",
-                      quantity(Dimension::length, 1e-9, 1e2),
-                      "Edge of the cells, whose outer faces are the surface.");
+    prm.declare_knob("Cell size", "1 mm",
+                     quantity(Dimension::length, 1e-9, 1e2),
+                     "Edge of the cells, whose outer faces are the surface.");
     RigidOptions::declare_parameters(prm);
   }
 

@@ -32,25 +32,25 @@ namespace
 {
 void declare_kernel(Parameters &prm)
 {
-  prm.declare_entry("Kernel update interval", "30", integer(1),
-                    "Steps between updates of the Lagrangian kernel.");
-  prm.declare_entry("Kernel update strain", "0.02",
-                    quantity(Dimension::none, 0., 1.),
-                    "An interval passes without update when no particle has "
-                    "strained by more than this since the last one; rotation "
-                    "needs none. 0: every interval.");
-  prm.declare_entry("Kernel update change", "1.1",
-                    quantity(Dimension::none, 1.01, 10.),
-                    "A particle that has been stretched or flattened by about "
-                    "this factor since the last update calls for an update at "
-                    "once.");
+  prm.declare_knob("Kernel update interval", "30", integer(1),
+                   "Steps between updates of the Lagrangian kernel.");
+  prm.declare_knob("Kernel update strain", "0.02",
+                   quantity(Dimension::none, 0., 1.),
+                   "An interval passes without update when no particle has "
+                   "strained by more than this since the last one; rotation "
+                   "needs none. 0: every interval.");
+  prm.declare_knob("Kernel update change", "1.1",
+                   quantity(Dimension::none, 1.01, 10.),
+                   "A particle that has been stretched or flattened by about "
+                   "this factor since the last update calls for an update at "
+                   "once.");
 }
 
 void declare_failure(Parameters &prm)
 {
-  prm.declare_entry("Failure check interval", "5", integer(1),
-                    "Steps between checks of the bonds; where any fails, the "
-                    "kernel is updated at once.");
+  prm.declare_knob("Failure check interval", "5", integer(1),
+                   "Steps between checks of the bonds; where any fails, the "
+                   "kernel is updated at once.");
   Registry<FailureCriterion>::declare_choice(
       prm, "Failure criterion", standard_criterion,
       "A bond fails for ever when the mean of this over its two ends exceeds "
@@ -68,26 +68,26 @@ void declare_failure(Parameters &prm)
 
 void SpgOptions::declare_parameters(Parameters &prm)
 {
-  prm.declare_entry(
+  prm.declare_knob(
       "Approximation", "least squares",
       one_of("least squares|convex exponential|convex arctangent"),
       "First-order functions of the particles. least squares: linearly "
       "corrected, the unknowns are the particles' positions; convex: "
       "generalised meshfree functions (Wu, Park & Chen 2011) with exponential "
       "or inverse-tangent basis, the unknowns are generalised positions.");
-  prm.declare_entry("Kernel shape", "spherical", one_of("spherical|tensor"),
-                    "Cubic spline of the radius, or product of cubic splines "
-                    "along the axes of the kernel.");
-  prm.declare_entry("Normalised support size", "2.0",
-                    quantity(Dimension::none, 1.0, 2.8),
-                    "Kernel radius (tensor: half width) over nodal spacing. "
-                    "Spherical least squares needs 1.8 or more.");
-  Registry<Stabilization>::declare_choice(
+  prm.declare_knob("Kernel shape", "spherical", one_of("spherical|tensor"),
+                   "Cubic spline of the radius, or product of cubic splines "
+                   "along the axes of the kernel.");
+  prm.declare_knob("Normalised support size", "2.0",
+                   quantity(Dimension::none, 1.0, 2.8),
+                   "Kernel radius (tensor: half width) over nodal spacing. "
+                   "Spherical least squares needs 1.8 or more.");
+  Registry<Stabilization>::declare_knob(
       prm, "Stabilisation", standard_form,
       "What keeps the sawtooth modes of direct nodal integration under "
       "control.");
   Registry<Stabilization>::declare_entries(prm, "");
-  prm.declare_entry(
+  prm.declare_knob(
       "Neighbour policy", "Lagrangian list",
       one_of("Lagrangian list|search undamaged|search"),
       "Lagrangian list: bonds of the start, only ever removed; search "
@@ -95,12 +95,12 @@ void SpgOptions::declare_parameters(Parameters &prm)
       "bond; search: between all pairs but those whose bond failed.");
   declare_kernel(prm);
   declare_failure(prm);
-  prm.declare_entry("Linear bulk viscosity", "0.06",
-                    quantity(Dimension::none, 0., 1.),
-                    "Coefficient of rho c h |div v| in compression.");
-  prm.declare_entry("Quadratic bulk viscosity", "1.5",
-                    quantity(Dimension::none, 0., 10.),
-                    "Coefficient of rho h^2 (div v)^2 in compression.");
+  prm.declare_knob("Linear bulk viscosity", "0.06",
+                   quantity(Dimension::none, 0., 1.),
+                   "Coefficient of rho c h |div v| in compression.");
+  prm.declare_knob("Quadratic bulk viscosity", "1.5",
+                   quantity(Dimension::none, 0., 10.),
+                   "Coefficient of rho h^2 (div v)^2 in compression.");
   prm.declare_entry("Heat conduction", "false", boolean(),
                     "Implicit conduction between bonded particles, surfaces "
                     "and cracks insulated. Needs a law with temperature and "

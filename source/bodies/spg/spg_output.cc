@@ -74,8 +74,7 @@ BodyFacts SpgBody::facts() const
   facts.is_particles = true;
   facts.is_clamped = options.clamped_faces != 0;
   facts.velocity = options.initial_velocity;
-  const std::array<double, 3> &spacing = kernel.axis_spacing();
-  facts.spacing = *std::min_element(spacing.begin(), spacing.end());
+  facts.spacing = kernel.axis_spacing();
   facts.may_fail = options.can_fail();
   facts.failure_strain = options.failure_criterion->critical_plastic_strain();
   return facts;

@@ -40,11 +40,6 @@ bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j) const
   return false;
 }
 
-std::array<double, 3> SpgViews::lattice_spacing() const
-{
-  return body.kernel.axis_spacing();
-}
-
 std::size_t SpgViews::n_bonds() const
 {
   std::size_t n = 0;

@@ -15,23 +15,24 @@ class Box : public Shape
 public:
   static void declare(Parameters &prm)
   {
-    prm.declare_entry("Size", "1 mm, 1 mm, 1 mm",
-                      quantities(Dimension::length, 3, 3, 1e-9, 1e3),
-                      "Edge lengths of the box.");
+    prm.declare_knob("Size", "1 mm, 1 mm, 1 mm",
+                     quantities(Dimension::length, 3, 3, 1e-9, 1e3),
+                     "Edge lengths of the box.");
   }
 
   void declare_grading(Parameters &prm) const override
   {
-    prm.declare_entry("Coarsest cell size", "1 km",
-                      quantity(Dimension::length, 1e-9, 1e3),
-                      "Where a zone is carved from the body or refined, "
-                      "cells grow away from it up to this size.");
-    prm.declare_entry("Growth ratio", "1.15", quantity(Dimension::none, 1., 3.),
-                      "Size of one cell over the last, away from the zone.");
-    prm.declare_entry("Refined zone size", "0 mm, 0 mm, 0 mm",
-                      quantities(Dimension::length, 3, 3, 0., 1e3),
-                      "Edge lengths of the part of the box that has cells of "
-                      "the cell size; 0: all of it.");
+    prm.declare_knob("Coarsest cell size", "none",
+                     word_or("none", quantity(Dimension::length, 1e-9, 1e3)),
+                     "Where a zone is carved from the body or refined, "
+                     "cells grow away from it up to this size.");
+    prm.declare_knob("Growth ratio", "1.15", quantity(Dimension::none, 1., 3.),
+                     "Size of one cell over the last, away from the zone.");
+    prm.declare_knob(
+        "Refined zone size", "none",
+        word_or("none", quantities(Dimension::length, 3, 3, 0., 1e3)),
+        "Edge lengths of the part of the box that has cells of "
+        "the cell size; none: all of it has.");
     prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
                       quantities(Dimension::length, 3, 3, -1e3, 1e3),
                       "Position of its centre.");
@@ -82,9 +83,13 @@ private:
   static void grade(const ShapeRequest &request, BoxSpecification &box)
   {
     const Parameters &prm = request.prm;
-    box.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
+    box.coarsest_cell_size =
+        get_optional_quantity(prm, "Coarsest cell size").value_or(unbounded);
     box.growth_ratio = get_quantity(prm, "Growth ratio");
+    if (prm.get("Refined zone size") == "none")
+      return;
     const auto refined = get_vector(prm, "Refined zone size");
+    // A length of 0 was a word for none.
     if (!(refined[0] > 0. && refined[1] > 0. && refined[2] > 0.))
       return;
     if (box.has_zone)

@@ -17,20 +17,20 @@ public:
     prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
     prm.declare_entry("Axis", "z", one_of("x|y|z"),
                       "Direction of the cylinder's axis.");
-    prm.declare_entry("Core radius", "0 m",
-                      quantity(Dimension::length, 0., 1e3),
-                      "Radius of the middle part that has cells of the cell "
-                      "size; 0: 0.55 of the radius.");
-    prm.declare_entry("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
-                      "Thickness of one ring of cells over the last, "
-                      "outwards.");
-    prm.declare_entry("Coarsest cell size", "1 km", length,
-                      "Rings grow up to this thickness.");
-    prm.declare_entry("Sector", "full", one_of("full|half|quarter"),
-                      "Part of the cylinder that is modelled: half keeps the "
-                      "positive side of the axis that follows the cylinder's "
-                      "(x after z), quarter that of the other one, too. The "
-                      "cut planes are called as a box's faces, e.g. -x, -y.");
+    prm.declare_knob("Core radius", "automatic",
+                     word_or("automatic", quantity(Dimension::length, 0., 1e3)),
+                     "Radius of the middle part that has cells of the cell "
+                     "size; automatic: 0.55 of the radius.");
+    prm.declare_knob("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
+                     "Thickness of one ring of cells over the last, "
+                     "outwards.");
+    prm.declare_knob("Coarsest cell size", "none", word_or("none", length),
+                     "Rings grow up to this thickness.");
+    prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
+                     "Part of the cylinder that is modelled: half keeps the "
+                     "positive side of the axis that follows the cylinder's "
+                     "(x after z), quarter that of the other one, too. The "
+                     "cut planes are called as a box's faces, e.g. -x, -y.");
   }
 
   std::string face_names() const override
@@ -79,10 +79,14 @@ private:
     const unsigned int axis = axis_of(prm);
     const double radius = get_quantity(prm, "Radius");
     CylinderGrading grading;
-    grading.core_radius = get_quantity(prm, "Core radius");
+    // A radius of 0 was a word for automatic.
+    grading.core_radius = get_optional_quantity(prm, "Core radius");
+    if (grading.core_radius && !(*grading.core_radius > 0.))
+      grading.core_radius.reset();
     grading.growth_ratio = get_quantity(prm, "Growth ratio");
-    grading.coarsest_cell_size = get_quantity(prm, "Coarsest cell size");
-    if (grading.core_radius > 0.9 * radius)
+    grading.coarsest_cell_size =
+        get_optional_quantity(prm, "Coarsest cell size").value_or(unbounded);
+    if (grading.core_radius && *grading.core_radius > 0.9 * radius)
       throw InputError(request.path + "/Core radius",
                        "leaves no room for rings; at most 0.9 of the radius");
     const Carving *const carving = request.carving;
@@ -90,7 +94,7 @@ private:
         !carving->shape.is_coaxial(axis, get_vector(prm, "Centre")) ||
         !(0.5 * carving->shape.size[(axis + 1) % 3] < 0.999 * radius))
       return grading;
-    if (grading.core_radius > 0.)
+    if (grading.core_radius)
       throw InputError(request.path + "/Core radius",
                        "has no effect: the zone \"" + carving->zone +
                            "\" that is carved from this body is the middle "

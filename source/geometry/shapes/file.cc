@@ -39,8 +39,8 @@ public:
     prm.declare_entry("Mesh unit", "1 m",
                       quantity(Dimension::length, 1e-9, 1e3),
                       "Length of a unit of the file's coordinates.");
-    prm.declare_entry("Mesh material id", "-1", integer(-1),
-                      "Only cells with this material id of the file; -1: all.");
+    prm.declare_entry("Mesh material id", "all", word_or("all", integer(-1)),
+                      "Only cells with this material id of the file.");
   }
 
   std::string face_names() const override
@@ -57,8 +57,7 @@ public:
     prm.set("Mesh file", resolved); // for the expanded parameters
     NamedMesh made;
     made.mesh = read_mesh(resolved, get_quantity(prm, "Mesh unit"),
-                          get_vector(prm, "Centre"),
-                          prm.get_integer("Mesh material id"), entry);
+                          get_vector(prm, "Centre"), material_id(prm), entry);
     for (const unsigned int id : made.mesh.boundary_id)
       while (made.faces.size() <= id)
         made.faces.push_back(std::to_string(made.faces.size()));
@@ -66,6 +65,16 @@ public:
   }
 
   bool follows_cell_size() const override { return false; }
+
+private:
+  static std::optional<unsigned int> material_id(const Parameters &prm)
+  {
+    const std::string text = prm.get("Mesh material id");
+    // -1 was a word for all.
+    return text == "all" || text == "-1"
+               ? std::nullopt
+               : std::optional<unsigned int>(std::stoul(text));
+  }
 };
 
 const Registry<Shape>::Add file({"file", "a mesh of hexahedra from a file.",

@@ -15,6 +15,8 @@ namespace sabot
  *   f_a = -sum_q v_q (dev sigma_q + p 1) b_aq, p = sum_q v_q tr sigma_q / 3 v,
  *
  * which do the same work. Four points share a pack, two packs make a cell.
+ * All points see the mean volume ratio; the bulk viscosity is that of the mean
+ * rate. Costs several times a one-point cell.
  */
 class BBar : public Hexahedra
 {
@@ -40,11 +42,13 @@ protected:
 private:
   static constexpr int n_packs = 2; // per cell
   static constexpr std::size_t cells_per_batch = batch_size / 8;
+  /** Reference data of a cell. */
   struct Geometry
   {
     Pack B[n_packs][8][3]; // reference gradients at the points [1/m]
     Pack volume[n_packs];  // of the points, V_q [m^3]
   };
+  /** What the next step needs of a cell: F at its points. */
   struct Motion
   {
     PackMat F[n_packs];
@@ -58,10 +62,15 @@ private:
     double expansion;               // sum of mid volume tr l [m^3]
     double shear_bound;             // sum of v_q lambda_max G_q [m]
   };
+  /** Gradients at Gauss point @p q of a cell with the corners @p X [m].
+      @return its volume [m^3]. */
   static double set_up_point(const std::array<Vec, 8> &X, const int q,
                              Geometry &g);
+  /** From the positions of the corners to what the material needs, into the
+      batch; advances motion. */
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t cell, const double dt);
+  // Parts of kinematics(); see there in the source.
   void add_points(const NodalState &nodes, const std::size_t e, const int p,
                   const Vec x[8], Moving &cell);
   static void add_present_gradients(const Geometry &g, const int p,

@@ -15,7 +15,8 @@
 
 namespace sabot
 {
-/** What the kernels need of a body's material at rest and of its options. */
+/** What the kernels need of a body's material at rest and of its options: read
+    once per step, not once per cell. */
 struct CellConstants
 {
   double sound_speed;    // c [m/s]
@@ -25,9 +26,16 @@ struct CellConstants
   double quadratic_bulk; // c2
 };
 
-/** Increment of the displacement gradient in the mid configuration,
-    l = (F - F_old) F_m^-1 with F_m = (F + F_old)/2: zero strain for a rigid
-    rotation (Hughes & Winget 1980). */
+/**
+ * Increment of the displacement gradient in the mid configuration,
+ *
+ *   l = (F - F_old) F_m^-1,  F_m = (F + F_old)/2
+ *
+ * (Hughes & Winget 1980): its symmetric part is the strain increment, zero for
+ * a rigid rotation, its antisymmetric part the spin increment. Dimensionless.
+ * @pre det F_m > 0, which holds where no volume ratio falls by more than a half
+ * in the step.
+ */
 SABOT_IN_LOOP PackMat midpoint_increment(const PackMat &F_old, const PackMat &F)
 {
   PackMat change, middle;
@@ -45,8 +53,9 @@ SABOT_IN_LOOP PackMat midpoint_increment(const PackMat &F_old, const PackMat &F)
   return l;
 }
 
-/** Shear strains xy, yz, xz (of the tensor) and spin of the increment @p l,
-    into the points from @p k of a batch. */
+/** Shear strains (l_ij + l_ji)/2 and spins (l_ij - l_ji)/2 for ij = xy, yz, xz
+    of the increment @p l, into the points @p k to k + 3 of a batch, which has
+    the arrays strain[6] and spin[3]. */
 template <typename Batch>
 SABOT_IN_LOOP void store_shear_and_spin(const PackMat &l, Batch &batch,
                                         const std::size_t k)
@@ -60,8 +69,9 @@ SABOT_IN_LOOP void store_shear_and_spin(const PackMat &l, Batch &batch,
 }
 
 /** An upper bound of the largest eigenvalue of the positive semidefinite
-    matrix G (xx, yy, zz, xy, yz, xz): the lesser of trace and Frobenius
-    norm. */
+    matrix G (xx, yy, zz, xy, yz, xz): the lesser of trace and Frobenius norm,
+    both exact where G has one direction, sqrt(3) too large where it has none.
+    In the unit of G, [1/m^2] for squares of gradients. */
 SABOT_IN_LOOP Pack largest_eigenvalue_bound(const Pack G[6])
 {
   return pack_min(G[0] + G[1] + G[2],
@@ -69,14 +79,16 @@ SABOT_IN_LOOP Pack largest_eigenvalue_bound(const Pack G[6])
                             2. * (G[3] * G[3] + G[4] * G[4] + G[5] * G[5])));
 }
 
-/** Step of a cell whose bulk viscosity damps its own compression by the
-    fraction xi of critical: central differences are stable up to
-    2/omega (sqrt(1 + xi^2) - xi). */
+/** Step [s] of a cell whose bulk viscosity damps its own compression by the
+    fraction xi of critical: central differences with the viscous force of half
+    a step before are stable up to 2/omega (sqrt(1 + xi^2) - xi), 2/omega being
+    the @p undamped step (Belytschko, Liu & Moran 2000, sec. 6.2). */
 SABOT_IN_LOOP Pack damped_step(const Pack undamped, const Pack xi)
 {
   return undamped * (pack_sqrt(1. + xi * xi) - xi);
 }
 
+/** a . b in each lane. */
 inline Pack dot(const Pack a[3], const Pack b[3])
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

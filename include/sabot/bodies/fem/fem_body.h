@@ -4,10 +4,13 @@
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/fem/fem_boundary.h"
+#include "sabot/bodies/fem/fem_erosion.h"
 #include "sabot/bodies/fem/heat_conduction.h"
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/hex_mesh.h"
+#include "sabot/geometry/local_part.h"
 #include "sabot/materials/material.h"
 
 #include <memory>
@@ -16,8 +19,14 @@
 namespace sabot
 {
 /**
- * Nodes, boundary, erosion and reports of a body of hexahedra; what its cells
- * do is up to Hexahedra.
+ * A body of hexahedra on this rank: its nodes, the life of a step and reports.
+ * What its cells do is up to Hexahedra, what can be touched to FemBoundary,
+ * which cells go to FemErosion, temperatures between cells to HeatConduction.
+ *
+ * A step: accelerations by M a = f_external - f_internal with lumped masses (an
+ * eighth of the mass of every cell around), where the internal forces are
+ * -sum_cells V_0 J sigma F^-T B_a at the positions now (doc/theory).
+ * Nodes: owned ones first, then ghosts, both ascending in global order.
  */
 class FemBody : public Body, public FaceView
 {
@@ -33,6 +42,7 @@ public:
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
+  // Between the kicks and drifts of the integrator, see Body.
   void impose_velocities(const double time) override;
   void accumulate_work(const double half_dt) override;
   void update_ghosts() override;
@@ -40,13 +50,15 @@ public:
   StableStep stable_step() const override;
   bool update_topology(const unsigned int step, const double time) override;
 
+  /** Owned cells only, so that the sum over ranks counts each once; the kinetic
+      energy of nodes that lost all cells counts as eroded. */
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
-    return symmetry_planes;
+    return boundary.planes();
   }
   std::vector<MaterialSite> material_sites() const override;
   OutputMesh output_mesh() const override;
@@ -87,29 +99,13 @@ public:
 private:
   /** Whether the material has this state variable. */
   bool has_state(const std::string &variable) const;
+  /** Conducts since the last time that it was called; collective. */
   void conduct_heat(const double time);
-  /** Axis of the normal of the faces with boundary id @p id; throws InputError
-      unless they lie in one plane across an axis. */
-  int symmetry_axis(const unsigned int id) const;
-  void
-  set_up_boundary(const std::unordered_map<GlobalIndex, std::uint32_t> &local);
-  /** Cells behind the boundary faces; no_cell where another rank's nodes have
-      it. */
-  static constexpr std::uint32_t no_cell = -1;
+  /** The nodes of this rank at rest in place, and their exchange. */
+  void lay_out_nodes(const LocalPart &part, const std::vector<int> &owner);
+  /** Cells behind the boundary faces, FemBoundary::no_cell where another rank's
+      nodes have it. Kept once found, unless cells erode. */
   const std::vector<std::uint32_t> &cell_of_faces() const;
-  // fem_erosion.cc
-  void set_up_erosion();
-  /** Active cells that meet a criterion, ascending. */
-  std::vector<std::size_t> cells_to_erode() const;
-  /** Erode what meets a criterion. Collective.
-      @return whether any rank has eroded a cell. */
-  bool erode_cells();
-  void erode(const std::vector<std::size_t> &cells);
-  void update_boundary(const std::vector<std::uint32_t> &dead);
-  /** Drop the active cells whose initial cell is dead from all arrays. */
-  void compact();
-  void visit_erosion(StateVisitor &visitor);
-  void add_erosion_measures(BodyMeasures &measures) const;
   /** Which owned nodes lost all their cells; null where none can. */
   const std::vector<char> *free_nodes() const;
 
@@ -120,34 +116,12 @@ private:
   GlobalIndex n_global_cells = 0;
   GhostExchange node_exchange;
   std::unique_ptr<Hexahedra> cells; // of this rank's nodes, ascending
-  std::vector<char> owned_cell;
+  std::vector<char> owned_cell;     // whether this rank reports it, [cells]
   VelocityConstraints constraints;
-  std::map<unsigned int, int> symmetry_axes; // of boundary ids
-  std::vector<SymmetryPlane> symmetry_planes;
-  /** Symmetry planes through owned nodes that lie on any. */
-  std::map<std::size_t, int> n_symmetry_planes;
-  std::vector<std::array<std::size_t, 4>> boundary_faces;
-  std::vector<GlobalIndex> boundary_face_id;
-  /** Of boundary_faces; found when asked for, then kept. */
+  FemBoundary boundary;
   mutable std::vector<std::uint32_t> known_cell_of_faces;
-  double typical_spacing = 0.;
-  unsigned int surface_version = 0; // the same on every rank
-  /** Present where cells may erode. "Initial" counts this rank's cells as
-      distributed; all other arrays of cells hold the active ones only. */
-  struct Erosion
-  {
-    std::vector<std::uint32_t> initial;              // of active cells
-    std::vector<char> alive;                         // of initial cells
-    std::vector<std::array<std::int32_t, 6>> across; // initial cells or -1
-    std::vector<std::array<std::uint32_t, 8>> nodes; // of initial cells
-    std::vector<GlobalIndex> id;                     // of initial cells
-    std::vector<std::int32_t> face_cell; // initial cell of boundary_faces
-    std::vector<std::uint8_t> cells_of_node;
-    std::vector<char> free_node;                  // owned, lost all cells
-    GlobalIndex n_boundary_faces = 0;             // of the whole mesh
-    ExactSum mass, energy, plastic_work, n_cells; // eroded, of owned cells
-  };
-  std::unique_ptr<Erosion> erosion;
+  unsigned int surface_version = 0;     // the same on every rank
+  std::unique_ptr<FemErosion> erosion;  // only where cells may erode
   std::unique_ptr<HeatConduction> heat; // only where asked for
   double last_conduction = 0.;          // [s]
 };

@@ -2,6 +2,7 @@
 #define sabot_bodies_fem_fem_options_h
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,22 +13,36 @@ class Parameters;
 
 namespace sabot
 {
+/** A cell goes when a state variable of its material, the mean over the cell's
+    points, reaches the value. */
+struct ErosionLimit
+{
+  std::string variable; // "damage"
+  std::string entry;    // of the parameters, "Erosion damage"
+  double value;
+};
+
+/**
+ * What a scene says about a body of finite elements, beside shape, material and
+ * names. SI units. Boundary ids are those of the body's mesh.
+ */
 struct FemOptions
 {
-  static constexpr double never = 1e10;
   std::string integration = "one point"; // of Registry<Hexahedra>
   std::string hourglass = "viscous";     // of Registry<OnePoint>
+  /** Which rotation the stress follows: by the spin of the velocity gradient,
+     or by R of F = R U, without oscillation in large elastic shear. */
   enum class ObjectiveRate
   {
     jaumann,
     green_naghdi
   };
   ObjectiveRate objective_rate = ObjectiveRate::jaumann;
-  double hourglass_coefficient = 0.1;
-  double bulk_viscosity_linear = 0.06;
-  double bulk_viscosity_quadratic = 1.5;
-  /** A cell is eroded when one of these is passed; never by default. */
-  double erosion_plastic_strain = never, erosion_damage = never;
+  double hourglass_coefficient = 0.1;    // of Flanagan & Belytschko's forms
+  double bulk_viscosity_linear = 0.06;   // c1, see bulk_viscosity_pressure()
+  double bulk_viscosity_quadratic = 1.5; // c2
+  /** A cell is eroded when one of these is passed; nothing: never. */
+  std::optional<double> erosion_plastic_strain, erosion_damage;
   double erosion_step = 0.; // [s], the cell's own stable step falls below
   /** What to do with a cell that the last step brought half way to a volume of
       zero: two more like it would turn it inside out. */
@@ -45,15 +60,17 @@ struct FemOptions
   /** Of the nodes of driven faces; only the held components count. */
   std::array<double, 3> driven_velocity{{0., 0., 0.}}; // [m/s]
   std::array<bool, 3> driven_components{{true, true, true}};
+  /** Conduct heat between the cells, after every interval. */
   bool conducts_heat = false;
   double conduction_interval = 1e-6; // [s]
 
-  bool erodes() const
-  {
-    return erosion_plastic_strain < never || erosion_damage < never ||
-           erosion_step > 0. || inversion == Inversion::erode;
-  }
+  /** Whether anything can take a cell out of the body. */
+  bool erodes() const;
+  /** The state variables that end the life of a cell. */
+  std::vector<ErosionLimit> erosion_limits() const;
 
+  /** The entries of the body's subsection, and their values. Neither knows of
+      boundary ids and velocities, which are the body's. */
   static void declare_parameters(Parameters &prm);
   static FemOptions parse(const Parameters &prm);
 };

@@ -38,14 +38,19 @@ public:
   void advance(const NodalState &nodes, const double dt, double *temperature);
 
   void visit_state(StateVisitor &visitor);
+  /** Of the conjugate gradients, for tests. */
   unsigned int last_iterations() const { return n_iterations; }
 
 private:
+  /** Nodal temperatures with the heat of the cells around; once. */
   void start(const double *temperature);
+  /** K_ab = k integral(grad N_a . grad N_b) at the present positions, 2x2x2
+      Gauss points [W/K]. */
   void assemble(const NodalState &nodes);
   /** product = (capacity/dt + conductance) x; ghosts of x are set first. */
   void multiply(const double dt, std::vector<double> &x,
                 std::vector<double> &product) const;
+  /** (C + dt K) x = right, scaled by the largest capacity. */
   void solve(const double dt, const std::vector<double> &right,
              std::vector<double> &x);
 

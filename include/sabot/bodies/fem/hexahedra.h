@@ -16,9 +16,10 @@ namespace sabot
 {
 /**
  * The hexahedra of a FEM body on this rank, with their material points: what
- * all choices of integration share. Points of cell e are e * n_points up to
- * (e + 1) * n_points; arrays of points are padded to whole packs, so that every
- * point goes through the same vector instructions.
+ * all integration rules share. A new rule is a class derived from this one,
+ * with its registration, in a file of its own. Points of cell e are e *
+ * n_points up to (e + 1) * n_points; arrays of points are padded to whole
+ * packs, so that every point goes through the same vector instructions.
  *
  * A rank holds every cell of its nodes (those at its border are computed by
  * several ranks alike) and adds up corner forces in global cell order: forces
@@ -50,9 +51,12 @@ public:
                            Vec force[8]) const = 0;
   /** Keep these cells only, ascending. */
   virtual void keep(const std::vector<std::size_t> &kept) = 0;
+  /** Everything of the cells that a restart needs; the rules add their own. */
   virtual void visit_state(StateVisitor &visitor);
 
   std::size_t size() const { return connectivity.size(); }
+  /** Local nodes of the corners, VTK order; numbers of the cells in the mesh.
+   */
   std::vector<std::array<std::uint32_t, 8>> connectivity;
   std::vector<GlobalIndex> cell_id;
   std::vector<double> volume;             // V_0 [m^3]
@@ -72,6 +76,7 @@ public:
   {
     return cell_means(points.state_data);
   }
+  /** Mean of component xx, yy, zz, xy, yz or xz over the points [Pa]. */
   double stress(const std::size_t component, const std::size_t e) const;
   const std::vector<StateVariable> &states() const
   {
@@ -85,6 +90,7 @@ public:
   /** Add the change of each cell to a scalar state variable at its points. */
   void shift_state(const std::string &name, const std::vector<double> &change);
 
+  /** The least over the cells, as of the last add_forces(). */
   StableStep smallest_step;
   std::vector<double> cell_step;      // [s], kept where erosion asks for it
   std::vector<std::size_t> inverting; // cells seen by avoid_inversion()
@@ -93,6 +99,7 @@ protected:
   /** Points per batch; what one needs stays in the first-level cache. */
   static constexpr std::size_t batch_size = 32;
   static_assert(batch_size <= max_batch_points, "materials take no more");
+  /** What a batch carries from kinematics to the material and back. */
   struct PointBatch : PointStepArrays<batch_size>
   {
     double step[batch_size]; // of cells; n_points of them apart
@@ -101,6 +108,7 @@ protected:
 
   /** Arrays of points for the cells of connectivity. */
   void allocate_points();
+  /** What the rules have in common of keep(). */
   void keep_points(const std::vector<std::size_t> &kept);
   /** F at a point. */
   virtual Mat gradient(const std::size_t point) const = 0;
@@ -123,6 +131,7 @@ protected:
     if (!cell_step.empty())
       cell_step[cell] = std::min(cell_step[cell], step);
   }
+  /** Before the first note_step() of a step. */
   void reset_steps();
 
   const std::string body_name;
@@ -152,6 +161,7 @@ private:
   std::vector<double> cell_means(const AlignedVector<double> &rows) const;
 };
 
+/** The next multiple that is not less than @p n. */
 inline std::size_t round_up(const std::size_t n, const std::size_t multiple)
 {
   return (n + multiple - 1) / multiple * multiple;

@@ -3,10 +3,17 @@
 
 namespace sabot
 {
-/** The four hourglass base vectors h_m summed with nodal values, by sums and
-    differences of pairs (corner order: VTK):
-    h_1 = (++--, --++), h_2 = (+--+, -++-), h_3 = (+-+-, +-+-),
-    h_4 = (-+-+, +-+-). */
+/**
+ * mode_m = sum_a h_ma x_a with the four hourglass base vectors, which are
+ * orthogonal to each other, to constants and to the linear fields of a
+ * parallelepiped (Flanagan & Belytschko 1981), corner order of VTK:
+ *
+ *   h_1 = (++--, --++), h_2 = (+--+, -++-), h_3 = (+-+-, +-+-),
+ *   h_4 = (-+-+, +-+-),
+ *
+ * by sums and differences of pairs: 20 additions instead of 28. In the unit of
+ * x, of entries 1 in h (|h|^2 = 8). @p Value: double, Vec or Pack.
+ */
 template <typename Value>
 inline void hourglass_sums(const Value x[8], Value mode[4])
 {
@@ -19,7 +26,8 @@ inline void hourglass_sums(const Value x[8], Value mode[4])
   mode[3] = f - e;
 }
 
-/** Sum over modes of h_m times modal values, for the eight corners. */
+/** Back: f_a = sum_m h_ma mode_m for the eight corners, the forces whose work
+    with x_a is that of mode_m with hourglass_sums(x)_m. */
 template <typename Value>
 inline void hourglass_spread(const Value mode[4], Value f[8])
 {

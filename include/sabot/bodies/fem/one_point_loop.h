@@ -18,8 +18,11 @@ namespace sabot
  *                    const double dt, const std::size_t pack, Motion &kept,
  *                    Pending &out);
  *
- * always inlined, which sets the modal forces, their part of P and the
- * hourglass energy of four cells.
+ * always inlined, which sets the modal forces [N], their part of P [N m] and
+ * the hourglass energy [J] of four cells.
+ *
+ * Run-time choices are made outside: materials per batch of points, the form by
+ * the class. What is inside is straight arithmetic on packs of four cells.
  */
 template <typename Form>
 class OnePointLoop : public OnePoint
@@ -62,6 +65,8 @@ protected:
   };
 
 private:
+  /** From the positions of the corners of four cells to strain, spin, stable
+      step and hourglass forces, on one page; advances what they keep. */
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t pack, const double dt);
   void ask_for(const std::size_t pack) const;
@@ -138,7 +143,8 @@ OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
     }
 }
 
-/** What the material needs: strain, spin, J and half the mid volume. */
+/** What the material needs: strain increment sym l, spin increment skew l,
+    J = det F and half of the mid volume V_0 (J + J_old)/2 [m^3]. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
@@ -151,7 +157,8 @@ OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
   store_pack(&batch.half_volume[k], 0.25 * cells.g.volume * (cells.J + J_old));
 }
 
-/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces. */
+/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces:
+    f_a = -(V_0 J sigma F^-T) B_a. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
 {
@@ -165,7 +172,8 @@ SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
     }
 }
 
-/** G = F^-T S F^-1, the sum of squares of the present gradients. */
+/** G = F^-T S F^-1, the sum over the corners of b_a (x) b_a with the present
+    gradients b_a = F^-T B_a [1/m^2]; xx, yy, zz, xy, yz, xz. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::present_squares(const FourCells &cells,
                                                        Pack G[6])
@@ -213,7 +221,8 @@ SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
   return damped_step(elastic_step, c1 + c2 / c * thickness * closing);
 }
 
-/** In which the present velocities take a quarter of the volume. */
+/** In which the present velocities take a quarter of the volume, the rate of
+    which is J tr(L F^-1) with L = sum v_a (x) B_a. */
 template <typename Form>
 SABOT_IN_LOOP Pack
 OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)

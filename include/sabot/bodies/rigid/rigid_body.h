@@ -3,6 +3,7 @@
 
 #include "sabot/bodies/body.h"
 #include "sabot/geometry/hex_mesh.h"
+#include "sabot/geometry/local_part.h"
 #include "sabot/materials/material.h"
 
 #include <memory>
@@ -14,6 +15,7 @@ class Parameters;
 
 namespace sabot
 {
+/** What a scene says about a rigid body, beside shape, material and name. */
 struct RigidOptions
 {
   /** Prescribed: the initial velocities for ever, whatever the forces. */
@@ -60,6 +62,8 @@ public:
   void update_ghosts() override {}
   /** Moves the body by @p dt and clears the forces. */
   void compute_forces(const double time, const double dt) override;
+  /** A twentieth of a radian of rotation, for the midpoint rule; contact bounds
+      the step by its own. */
   StableStep stable_step() const override;
   bool update_topology(const unsigned int, const double) override
   {
@@ -85,13 +89,19 @@ public:
   GlobalIndex n_items() const override { return n_global_cells; }
   std::string step_timer_name() const override { return "rigid step"; }
 
+  // For verification problems.
   double total_mass() const { return mass; }
   /** About the centre, in the initial frame [kg m^2]. */
   const Mat &inertia_tensor() const { return inertia; }
 
 private:
+  /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. */
   Vec spin(const Mat &rotation) const;
+  /** Faces whose nodes are all here, and the mean edge of all faces. */
+  void take_faces(const LocalPart &part);
+  /** Rigid motion of the owned nodes, v = p/m + omega x r. */
   void set_velocities();
+  /** Rotation by a unit quaternion (w, x, y, z). */
   static Mat matrix(const std::array<double, 4> &quaternion);
 
   HexMesh mesh; // released after distribute()

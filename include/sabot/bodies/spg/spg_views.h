@@ -33,9 +33,6 @@ public:
   /** All that have a failed bond: they may meet others again. */
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
-  /** Of the start, the same mean along all axes in a cloud of cells' nodes
-      [m]. */
-  std::array<double, 3> lattice_spacing() const override;
   std::size_t n_bonds() const override;
   std::vector<Fragment> connected_pieces() const override;
 

@@ -7,6 +7,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/kernels/convex_functions.h"
+#include "sabot/kernels/eigen.h"
 #include "sabot/kernels/kernel_function.h"
 
 #include <Eigen/Eigenvalues>

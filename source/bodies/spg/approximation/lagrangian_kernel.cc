@@ -4,6 +4,7 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/principal.h"
 
 #include <algorithm>
 #include <cmath>

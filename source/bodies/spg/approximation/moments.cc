@@ -4,6 +4,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/principal.h"
 
 #include <vector>
 

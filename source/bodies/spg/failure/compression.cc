@@ -3,6 +3,7 @@
 #include "sabot/base/registry.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/principal.h"
 
 #include <algorithm>
 

@@ -283,10 +283,10 @@ const Registry<Stabilization>::Add registered(
      "yield with the metal.",
      [](Parameters &prm)
      {
-       prm.declare_entry("Stabilisation coefficient", "4",
-                         quantity(Dimension::none, 0., 20.),
-                         "Stiffness of the bond residual in shear moduli; 3 to "
-                         "5 give the same answers.");
+       prm.declare_knob("Stabilisation coefficient", "4",
+                        quantity(Dimension::none, 0., 20.),
+                        "Stiffness of the bond residual in shear moduli; 3 to "
+                        "5 give the same answers.");
      },
      [](const Parameters &prm, const std::string &)
      {

@@ -1,0 +1,80 @@
+#ifndef sabot_bodies_fem_fem_boundary_h
+#define sabot_bodies_fem_fem_boundary_h
+
+#include "sabot/bodies/body.h"
+#include "sabot/bodies/fem/fem_options.h"
+#include "sabot/bodies/fem/hexahedra.h"
+#include "sabot/bodies/velocity_constraints.h"
+#include "sabot/geometry/hex_mesh.h"
+
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * The faces of a body of hexahedra on this rank: what other bodies may touch,
+ * and the nodes whose velocity is prescribed. Faces on symmetry planes are left
+ * out: nothing touches a body from inside of its other half. No function is
+ * collective.
+ */
+class FemBoundary
+{
+public:
+  /** Finds the symmetry planes. Throws InputError, by the entry "Symmetry
+      faces", unless such faces lie in one plane across an axis. */
+  FemBoundary(const std::string &body_name, const HexMesh &mesh,
+              const FemOptions &options);
+
+  /**
+   * Takes the faces whose nodes are all here, and prescribes velocities. Where
+   * clamped, driven and symmetry faces share nodes, symmetry gives way to a
+   * driven face, and both to a clamped one.
+   * @param local  number on this rank of the mesh's nodes that are here
+   */
+  void set_up(const HexMesh &mesh,
+              const std::unordered_map<GlobalIndex, std::uint32_t> &local,
+              const std::size_t n_owned, VelocityConstraints &constraints);
+
+  /** As of now, for couplings. */
+  ContactSurface surface(const std::size_t n_owned,
+                         const double bulk_modulus) const;
+
+  static constexpr std::uint32_t no_cell = -1;
+  /** Numbers of the cells behind the faces; no_cell where another rank's nodes
+      have it. Searches all cells. */
+  std::vector<std::uint32_t> find_cells(const Hexahedra &cells) const;
+
+  /** Present flow stress [Pa] at some owned nodes of the faces: the mean over
+      the faces around a node of that of the cells behind them; 1e300 where
+      there are no faces.
+      @param cell_of  cells behind the faces, see find_cells() */
+  std::vector<double>
+  flow_stress(const std::vector<std::size_t> &some_nodes,
+              const std::size_t n_local_nodes, const Hexahedra &cells,
+              const std::vector<std::uint32_t> &cell_of) const;
+
+  /** Where the model is cut, the same on every rank. */
+  const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
+
+  // Faces come and go where cells erode; see FemErosion.
+  std::vector<std::array<std::size_t, 4>> faces; // local nodes
+  std::vector<GlobalIndex> face_id;              // the same on every rank
+
+private:
+  /** Prescribes the normal velocity of the nodes on symmetry planes, a bit per
+      axis each. */
+  void hold_on_planes(const std::map<std::size_t, int> &planes,
+                      VelocityConstraints &constraints);
+
+  const FemOptions options;
+  std::map<unsigned int, int> symmetry_axes; // of boundary ids
+  std::vector<SymmetryPlane> symmetry_planes;
+  /** Symmetry planes through owned nodes that lie on any. */
+  std::map<std::size_t, int> n_symmetry_planes;
+  double typical_spacing = 0.; // [m]
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,28 @@
+#ifndef sabot_couplings_contact_members_h
+#define sabot_couplings_contact_members_h
+
+#include "sabot/couplings/coupling_builder.h"
+#include "sabot/couplings/self_contact.h"
+
+namespace sabot
+{
+/** Declares `Bodies` and the entries of ContactOptions. */
+void declare_contact(Parameters &prm);
+
+/** The bodies that the entry `Bodies` lists, by number, in its order;
+   InputError where there are fewer than @p least. */
+std::vector<int> contact_members(const Parameters &prm, const std::string &path,
+                                 const CouplingContext &context,
+                                 const std::size_t least);
+
+/** Pairs (a, b) of @p members, a < b or a = b where they may meet themselves;
+    ascending, each once. */
+std::vector<std::pair<int, int>>
+pairs_of_members(const std::vector<int> &members, const bool with_themselves);
+
+/** The same spring and friction, but the bound of the stiffness that contact of
+    surfaces has: SelfContact has one of its own, for it counts partners. */
+ContactOptions of_surfaces(const SelfContactOptions &options);
+} // namespace sabot
+
+#endif

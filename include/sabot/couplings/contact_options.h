@@ -1,0 +1,25 @@
+#ifndef sabot_couplings_contact_options_h
+#define sabot_couplings_contact_options_h
+
+#include "sabot/couplings/contact_spring.h"
+#include "sabot/couplings/friction/friction_law.h"
+#include "sabot/couplings/friction/shear_strength.h"
+
+namespace sabot
+{
+/** What contact and self-contact have in common: spring, law of friction, and
+    what the metals bear of it. */
+struct ContactOptions : SpringOptions
+{
+  std::shared_ptr<const FrictionLaw> friction; // null: none
+  ShearStrength shear_strength;
+
+  /** With the entries of all laws of friction. */
+  static void declare_parameters(Parameters &prm);
+  /** From the present subsection, called @p path in messages; throws
+      InputError. */
+  void parse_parameters(const Parameters &prm, const std::string &path);
+};
+} // namespace sabot
+
+#endif

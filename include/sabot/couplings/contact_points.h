@@ -1,0 +1,66 @@
+#ifndef sabot_couplings_contact_points_h
+#define sabot_couplings_contact_points_h
+
+#include "sabot/couplings/contact_options.h"
+
+namespace sabot
+{
+/** A node that presses on something in this step: what a coupling found, and
+    the forces that spring and friction make of it. */
+struct ContactPoint
+{
+  // Set by the coupling.
+  std::size_t item;                // its own number: of the group or pair
+  Vec normal;                      // unit, outward of what is touched
+  Vec velocity;                    // of the node against what it touches [m/s]
+  double depth;                    // that repels [m], > 0
+  double stiffness;                // k [N/m], stable
+  double reduced_mass;             // [kg]
+  double area;                     // that the point stands for [m^2]
+  double largest_friction;         // that the metals bear [N]
+  ContactMemory *memory = nullptr; // null: a spring of a pair, which has a
+                                   // potential and needs no books
+  double fade = 1.;                // part of the force that acts, (0, 1]
+  /** The coupling's list of what is touched. */
+  std::size_t first_touched = 0, last_touched = 0;
+
+  // Set by find_forces(). On the node act part * pressing * normal and
+  // -part * drag * sliding; the opposite, in parts, on what it touches.
+  Vec sliding;     // velocity along the surface [m/s]
+  double pressing; // k depth + c max(0, -v . n) [N]
+  double drag;     // friction over the speed of sliding [N s/m]
+  double part;     // that the work of the spring bears, times fade
+
+  Vec normal_force() const { return part * (pressing * normal); }
+  Vec friction_force() const { return part * (-drag * sliding); }
+};
+
+/**
+ * All contact points of a coupling in one step: spring and law work on arrays,
+ * so that the choice of a law costs nothing per point.
+ */
+class ContactPoints
+{
+public:
+  void clear() { points.clear(); }
+  void add(const ContactPoint &point) { points.push_back(point); }
+  /** Penalty and damping while approaching (SpringOptions), friction of the
+      law below what the metals bear and what stops the sliding within the
+      step, and of both the part that is backed. @p dt: the step just made [s],
+      > 0. Local to a rank. */
+  void find_forces(const ContactOptions &options, const double dt);
+
+  std::vector<ContactPoint>::const_iterator begin() const
+  {
+    return points.begin();
+  }
+  std::vector<ContactPoint>::const_iterator end() const { return points.end(); }
+
+private:
+  std::vector<ContactPoint> points;
+  SlidingContacts contacts;
+  std::vector<double> friction; // [N]
+};
+} // namespace sabot
+
+#endif

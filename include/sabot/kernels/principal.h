@@ -1,0 +1,127 @@
+#ifndef sabot_kernels_principal_h
+#define sabot_kernels_principal_h
+
+#include "sabot/kernels/eigen.h"
+#include "sabot/kernels/vec.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+// Inline, as a call would change the contraction of products and sums in the
+// loops over particles; with Eigen's decompositions, which take seconds to
+// parse: include this in source files only.
+
+/**
+ * Inverse of a symmetric positive semidefinite moment matrix whose small
+ * eigenvalues are damped: with the spectrum M = sum e_i n_i (x) n_i,
+ *
+ *   M^-1 ~ sum g(e_i) n_i (x) n_i,  g(e) = 1/e           for e >= threshold,
+ *                                   g(e) = e/threshold^2 below,
+ *
+ * continuous at the threshold and zero where a direction is lost, so that
+ * gradients fade there instead of growing without bound.
+ * @param threshold  of the eigenvalues, in their unit, > 0
+ * @param n_damped   out: number of directions below the threshold
+ */
+inline Mat damped_inverse(const Mat &moment, const double threshold,
+                          int &n_damped)
+{
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.compute(to_eigen(moment));
+  n_damped = 0;
+  Eigen::Vector3d inverse;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double e = std::max(0., solver.eigenvalues()[i]);
+    inverse[i] = e < threshold ? e / (threshold * threshold) : 1. / e;
+    n_damped += e < threshold;
+  }
+  return from_eigen(solver.eigenvectors() * inverse.asDiagonal() *
+                    solver.eigenvectors().transpose());
+}
+
+/** Remove the tensile principal values of the symmetric tensor s (components
+    xx, yy, zz, xy, yz, xz; positive in tension): what a crack still
+    carries. */
+inline void cut_tension(double s[6])
+{
+  Eigen::Matrix3d m;
+  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(m);
+  if (!(solver.eigenvalues()[2] > 0.))
+    return;
+  const Eigen::Matrix3d &v = solver.eigenvectors();
+  for (int i = 0; i < 3; ++i)
+    if (solver.eigenvalues()[i] > 0.)
+      m -= solver.eigenvalues()[i] * v.col(i) * v.col(i).transpose();
+  const double cut[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)};
+  std::copy(cut, cut + 6, s);
+}
+
+/** Largest principal value of the symmetric tensor s (xx, yy, zz, xy, yz,
+    xz), in its unit; of a stress positive in tension. */
+inline double largest_principal(const double s[6])
+{
+  Eigen::Matrix3d m;
+  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(m, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[2];
+}
+
+/** Middle eigenvalue of a symmetric matrix, in its unit. */
+inline double middle_eigenvalue(const Mat &moment)
+{
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.compute(to_eigen(moment), Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[1];
+}
+
+/**
+ * Keep a support from growing or shrinking without bound: with the kernel
+ * matrix @p h [m], that maps the unit ball to the present support, and the
+ * initial semi-axes @p axes [m], h = h' diag(axes) and h' = U S V^T, limit the
+ * singular values to S in [low, high]; rotation and axes of stretch stay.
+ * @pre 0 < low < 1 < high. Kernels far from the limits return as they were.
+ */
+inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
+                        const double high)
+{
+  Eigen::Matrix3d m = to_eigen(h);
+  for (int j = 0; j < 3; ++j)
+    m.col(j) /= axes[j];
+  const Eigen::Matrix3d c = m.transpose() * m;
+  // Most kernels are far from the limits; the norm tells without eigenvalues.
+  const double distance = (c - Eigen::Matrix3d::Identity()).norm();
+  if (distance < std::min(1. - low * low, high * high - 1.))
+    return h;
+  // m = U S V^T: with V from m^T m, m V diag(s'/s) V^T has singular values s'.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(c);
+  Eigen::Vector3d factor;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double s = std::sqrt(std::max(1e-12, solver.eigenvalues()[i]));
+    factor[i] = std::clamp(s, low, high) / s;
+  }
+  Eigen::Matrix3d clamped = m * solver.eigenvectors() * factor.asDiagonal() *
+                            solver.eigenvectors().transpose();
+  for (int j = 0; j < 3; ++j)
+    clamped.col(j) *= axes[j];
+  return from_eigen(clamped);
+}
+
+/** The same for kernels that start as any regular matrix: h = h' @p initial. */
+inline Mat clamp_kernel(const Mat &h, const Mat &initial, const double low,
+                        const double high)
+{
+  const Mat stretch = h * inverse(initial);
+  return clamp_kernel(stretch, vec(1., 1., 1.), low, high) * initial;
+}
+} // namespace sabot
+
+#endif

@@ -1,0 +1,205 @@
+// Which nodes a contact watches, from one search to the next and in
+// checkpoints.
+#include "sabot/couplings/contact.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+double Contact::patch_radius(const int nodes_of, const int faces_of) const
+{
+  return ContactPatch::radius(*bodies[nodes_of], surfaces[nodes_of],
+                              surfaces[faces_of]);
+}
+
+void Contact::search()
+{
+  travelled = 0.;
+  double spacing = 0.;
+  for (const ContactPair &pair : pairs)
+    for (const int b : {pair.faces_of, pair.nodes_of})
+      spacing = std::max(spacing, surfaces[b].spacing);
+  for (const ContactPair &pair : pairs)
+    spacing = std::max(spacing, patch_radius(pair.nodes_of, pair.faces_of));
+  ContactMemories memories;
+  for (const Group &group : groups)
+    if (group.slot < halo.n_owned())
+      memories.emplace_back(halo.key(group.slot), group.memory);
+  const SearchResult found = ContactSearch{bodies,
+                                           surfaces,
+                                           pairs,
+                                           memories,
+                                           spacing,
+                                           skin,
+                                           options.shear_strength.is_limited(),
+                                           communicator}
+                                 .find();
+  std::vector<std::size_t> number_of_face;
+  const std::vector<KeptNode> kept = keep_relevant(found, number_of_face);
+  groups.clear();
+  for (const KeptNode &node : kept)
+    groups.push_back(make_group(found, node, number_of_face));
+  reset_slots();
+  if (options.shear_strength.needs_flow_stress())
+    halo.find_flow_stress(flow_stress);
+}
+
+std::vector<Contact::KeptNode>
+Contact::keep_relevant(const SearchResult &found,
+                       std::vector<std::size_t> &number_of_face)
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  const auto owned = [&](const std::int32_t body, const GlobalIndex node)
+  { return bodies[body]->node_owner[node] == rank; };
+  std::vector<char> is_mine(found.faces.size(), 0),
+      is_needed(found.faces.size(), 0);
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    for (const GlobalIndex a : found.faces[f].node)
+      is_mine[f] |= owned(found.faces[f].body, a);
+  std::vector<NodeKey> needed;
+  std::vector<KeptNode> kept;
+  const auto &c = found.candidates;
+  for (std::size_t first = 0, last; first < c.size(); first = last)
+  {
+    // One candidate for each body that the node meets.
+    bool is_relevant = owned(c[first].node.body, c[first].node.node);
+    for (last = first; last < c.size() && c[last].node == c[first].node; ++last)
+      for (auto k = c[last].first_face; k < c[last].last_face; ++k)
+        is_relevant |= is_mine[found.face_of_candidate[k]];
+    if (!is_relevant)
+      continue;
+    kept.push_back({first, last});
+    needed.push_back(c[first].node);
+    for (std::size_t i = first; i < last; ++i)
+      for (auto k = c[i].first_face; k < c[i].last_face; ++k)
+        is_needed[found.face_of_candidate[k]] = 1;
+  }
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    if (is_needed[f])
+      for (const GlobalIndex a : found.faces[f].node)
+        needed.push_back({found.faces[f].body, 0, a});
+  halo.build(bodies, needed, communicator);
+  faces.clear();
+  number_of_face.assign(found.faces.size(), 0);
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    if (is_needed[f])
+    {
+      number_of_face[f] = faces.corners.size();
+      std::array<std::size_t, 4> slots;
+      for (int a = 0; a < 4; ++a)
+        slots[a] = halo.slot({found.faces[f].body, 0, found.faces[f].node[a]});
+      faces.corners.push_back(slots);
+    }
+  return kept;
+}
+
+Contact::Group
+Contact::make_group(const SearchResult &found, const KeptNode &node,
+                    const std::vector<std::size_t> &number_of_face)
+{
+  const ContactCandidate &candidate = found.candidates[node.first];
+  Group group;
+  group.slot = halo.slot(candidate.node);
+  group.memory = candidate.memory;
+  group.first_face = faces.face_of_node.size();
+  const std::int32_t body = candidate.node.body;
+  group.spacing = surfaces[body].spacing;
+  double modulus = surfaces[body].bulk_modulus;
+  // Where both sides' nodes meet faces, each carries half of the shear.
+  double sides = 1.;
+  for (std::size_t i = node.first; i < node.last; ++i)
+  {
+    const ContactCandidate &c = found.candidates[i];
+    const int other = found.faces[found.face_of_candidate[c.first_face]].body;
+    modulus = std::min(modulus, surfaces[other].bulk_modulus);
+    for (const ContactPair &pair : pairs)
+      if (pair.faces_of == body && pair.nodes_of == other &&
+          !pair.loose_nodes_only)
+        sides = 2.;
+    for (auto k = c.first_face; k < c.last_face; ++k)
+      faces.face_of_node.push_back(number_of_face[found.face_of_candidate[k]]);
+    group.patch_radius =
+        std::max(group.patch_radius, patch_radius(body, other));
+  }
+  group.last_face = faces.face_of_node.size();
+  group.share = candidate.share;
+  group.stiffness =
+      candidate.share * options.stiffness_scale * modulus * group.spacing;
+  group.area = candidate.share * group.spacing * group.spacing / sides;
+  group.area_vector = (1. / sides) * candidate.area;
+  return group;
+}
+
+void Contact::reset_slots()
+{
+  forces.resize(halo.size());
+  patch.reset(surfaces, halo.size());
+}
+
+void Contact::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("surface version", surface_version);
+  visitor.visit_value("penetration", penetration_over_spacing);
+  // Candidates were found where the bodies were at the last search, so they
+  // cannot be found anew. Slots depend on nothing but the nodes.
+  std::vector<SavedGroup> saved;
+  std::vector<NodeKey> face_nodes;
+  for (const Group &group : groups)
+  {
+    saved.push_back(
+        {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
+         group.stiffness, group.spacing, group.area, group.area_vector,
+         group.memory, group.wake, group.patch_radius, group.share});
+    for (std::size_t k = group.first_face; k < group.last_face; ++k)
+      for (const std::size_t slot : faces.corners[faces.face_of_node[k]])
+        face_nodes.push_back(halo.key(slot));
+  }
+  visitor.visit_resized("groups", saved);
+  visitor.visit_resized("face nodes", face_nodes);
+  if (visitor.is_restoring())
+  {
+    update_surfaces(); // as the restored bodies have them
+    restore_groups(saved, face_nodes);
+  }
+  visitor.visit_resized("flow stress", flow_stress);
+  forces.visit_state(visitor);
+}
+
+void Contact::restore_groups(const std::vector<SavedGroup> &saved,
+                             const std::vector<NodeKey> &face_nodes)
+{
+  std::vector<NodeKey> needed = face_nodes;
+  for (const SavedGroup &group : saved)
+    needed.push_back(group.node);
+  halo.build(bodies, needed, communicator);
+  groups.clear();
+  faces.clear();
+  for (const SavedGroup &from : saved)
+  {
+    Group group;
+    group.slot = halo.slot(from.node);
+    group.first_face = faces.corners.size();
+    group.last_face = group.first_face + from.n_faces;
+    group.stiffness = from.stiffness;
+    group.spacing = from.spacing;
+    group.area = from.area;
+    group.area_vector = from.area_vector;
+    group.memory = from.memory;
+    group.wake = from.wake;
+    group.patch_radius = from.patch_radius;
+    group.share = from.share;
+    for (std::size_t f = group.first_face; f < group.last_face; ++f)
+    {
+      std::array<std::size_t, 4> slots;
+      for (int a = 0; a < 4; ++a)
+        slots[a] = halo.slot(face_nodes[4 * f + a]);
+      faces.face_of_node.push_back(faces.corners.size());
+      faces.corners.push_back(slots);
+    }
+    groups.push_back(group);
+  }
+  reset_slots();
+}
+} // namespace sabot

@@ -1,0 +1,49 @@
+// What contact and self-contact of a scene have in common: who takes part.
+#include "sabot/couplings/contact_members.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+void declare_contact(Parameters &prm)
+{
+  prm.declare_entry("Bodies", "", name_list(),
+                    "Bodies that may touch each other.");
+  ContactOptions::declare_parameters(prm);
+}
+
+std::vector<int> contact_members(const Parameters &prm, const std::string &path,
+                                 const CouplingContext &context,
+                                 const std::size_t least)
+{
+  std::vector<int> members;
+  for (const std::string &member : split_names(prm.get("Bodies")))
+    members.push_back(context.body_index(path + "/Bodies", member));
+  if (members.size() < least)
+    throw InputError(path + "/Bodies",
+                     "a " + prm.get("Type") + " needs " +
+                         (least == 2 ? "two bodies" : "one body") +
+                         " at least");
+  return members;
+}
+
+std::vector<std::pair<int, int>>
+pairs_of_members(const std::vector<int> &members, const bool with_themselves)
+{
+  std::vector<std::pair<int, int>> pairs;
+  for (const int a : members)
+    for (const int b : members)
+      if (a < b || (a == b && with_themselves))
+        pairs.emplace_back(a, b);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+ContactOptions of_surfaces(const SelfContactOptions &options)
+{
+  ContactOptions surfaces = options;
+  surfaces.stability_fraction = ContactOptions().stability_fraction;
+  return surfaces;
+}
+} // namespace sabot

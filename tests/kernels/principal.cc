@@ -1,0 +1,57 @@
+// Principal values of symmetric tensors, and smooth pressure on a patch.
+#include "sabot/kernels/principal.h"
+#include "sabot/kernels/patch_weights.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace sabot;
+
+TEST(Principal, tension_is_cut_and_compression_stays)
+{
+  // Principal values 3 and -1 in the plane x, y, and -2.
+  double s[6] = {1., 1., -2., 2., 0., 0.};
+  EXPECT_NEAR(largest_principal(s), 3., 1e-14);
+  cut_tension(s);
+  const double expected[6] = {-0.5, -0.5, -2., 0.5, 0., 0.};
+  for (int c = 0; c < 6; ++c)
+    EXPECT_NEAR(s[c], expected[c], 1e-14);
+  EXPECT_NEAR(largest_principal(s), 0., 1e-14);
+  double compressed[6] = {-3., -2., -1., 0.1, 0.2, 0.3};
+  const double before = compressed[3];
+  cut_tension(compressed);
+  EXPECT_EQ(compressed[3], before);
+}
+
+TEST(Principal, the_middle_eigenvalue)
+{
+  const Mat m = {{vec(5, 0, 0), vec(0, 2, 1), vec(0, 1, 2)}};
+  EXPECT_NEAR(middle_eigenvalue(m), 3., 1e-14);
+}
+
+TEST(PatchWeights, add_to_one_without_a_moment)
+{
+  std::vector<Vec> point;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j)
+      point.push_back(vec(i, j, 0.));
+  const std::vector<double> area(point.size(), 1.);
+  std::vector<double> weight;
+  const Vec center = vec(0.2, -0.3, 0.1);
+  ASSERT_TRUE(patch_weights(point, area, center, vec(0., 0., 1.), 2., weight));
+  double sum = 0.;
+  Vec moment = {};
+  for (std::size_t a = 0; a < point.size(); ++a)
+  {
+    sum += weight[a];
+    moment += weight[a] * (point[a] - center);
+  }
+  EXPECT_NEAR(sum, 1., 1e-13);
+  EXPECT_NEAR(moment[0], 0., 1e-13);
+  EXPECT_NEAR(moment[1], 0., 1e-13);
+  // Two nodes do not span a surface.
+  EXPECT_FALSE(patch_weights({point[12], point[13]}, {1., 1.}, point[12],
+                             vec(0., 0., 1.), 2., weight));
+}
+} // namespace
