@@ -62,7 +62,7 @@ TEST(SpgRooms, entries_without_effect_are_refused)
 {
   EXPECT_THROW(parse({{"Critical shear strain", "0.2"}}), InputError);
   EXPECT_THROW(parse({{"Smoothing coefficient", "0.2"}}), InputError);
-  EXPECT_THROW(parse({{"Stabilisation", "second gradient"}}), InputError);
+  EXPECT_THROW(parse({{"Stabilization", "second gradient"}}), InputError);
   EXPECT_NO_THROW(parse({{"Critical shear strain", "1e10"}}));
 }
 

@@ -16,7 +16,7 @@ namespace sabot
  * The first stage of the SPG step, from positions to what the material and the
  * stabilization need, as kernels of one particle on plain values. They are
  * inlined into one loop over the batch (follow_motion()), which reads each
- * neighbour once.
+ * neighbor once.
  */
 struct MotionViews
 {

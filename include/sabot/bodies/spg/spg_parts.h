@@ -41,7 +41,7 @@ struct StepWork : PointStepArrays<spg_batch_size>
   // and viscous pressure (follow_motion) and what the return left (law):
   /** Square of the stabilization's stress [Pa^2]; see MaterialBatch. */
   double extra_square[spg_batch_size] = {};
-  /** F_new F_old^-1 - 1: how the particle's neighbourhood moves in this step,
+  /** F_new F_old^-1 - 1: how the particle's neighborhood moves in this step,
       by which residuals and higher gradients follow. */
   Mat relative_gradient[spg_batch_size];
   /** F^-T of the incremental F: V sigma F^-T is the nominal stress by which
@@ -78,7 +78,7 @@ struct SpgParts
       masses; forces of owned nodes are the step's result. */
   NodalState &nodes;
   const GhostExchange &exchange; // of particles
-  BondList &bonds;        // neighbours of owned particles, symmetric weights
+  BondList &bonds;        // neighbors of owned particles, symmetric weights
   ParticleFields &fields; // deformation and kernels
   MaterialPoints &points; // stress and state, one point a particle
   const LagrangianKernel &kernel;

@@ -18,7 +18,7 @@ public:
 
   /** The hooks of spg_step.h, which compile to nothing: no force per bond, no
       trial stress (extra_square stays 0, as it starts), nothing to add to a
-      particle's stress [J], no stiffness for its neighbours' fourth lanes, no
+      particle's stress [J], no stiffness for its neighbors' fourth lanes, no
       ghosts' bonds to exchange. */
   static constexpr bool has_bond_forces = false;
   void trial(const ParticleRange &, const SpgParts &) {}
