@@ -14,8 +14,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /** Quadrilaterals that fill a disc: a square core with bulged edges and rings
     around it, first in the unit disc, then scaled to the exact area. */
 class Disc
@@ -35,8 +33,8 @@ public:
     add_rings(cell_size, grading);
     // Area of a regular polygon of n_rim corners on the unit circle.
     const unsigned int n_rim = 4 * n;
-    const double area = 0.5 * n_rim * std::sin(2. * pi / n_rim);
-    const double scale = radius * std::sqrt(pi / area);
+    const double area = 0.5 * n_rim * std::sin(2. * M_PI / n_rim);
+    const double scale = radius * std::sqrt(M_PI / area);
     for (dealii::Point<2> &p : points)
       p *= scale;
     dealii::GridTools::invert_all_negative_measure_cells(points, cells);
@@ -174,7 +172,7 @@ private:
     std::vector<unsigned int> next(n_rim);
     for (unsigned int a = 0; a < n_rim; ++a)
     {
-      const double angle = pi * (-0.75 + 2. * a / n_rim);
+      const double angle = M_PI * (-0.75 + 2. * a / n_rim);
       const dealii::Point<2> rim(std::cos(angle), std::sin(angle));
       next[a] = points.size();
       points.push_back(ring.beyond ? rim * (zone * (1. - f) + f)
