@@ -13,7 +13,10 @@
 namespace sabot
 {
 /** Stress, von Mises, pressure and scalar state variables of the @p items of
-    arrays [component][n], as output fields. */
+    arrays [component][n], as output fields. stress[c * n + item] in Pa,
+    order xx, yy, zz, xy, yz, xz; von Mises = sqrt(3/2 s : s); pressure = -tr
+    sigma/3, positive in compression. Tensor states are left out. state[row *
+    n + item] as variables say. The bulk viscosity is in none of them. Local. */
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
                          const std::size_t n, const double *stress,
@@ -21,7 +24,9 @@ void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<StateVariable> &variables);
 
 /** A field with value(item, component) for @p n items; unit and number of
-    components are those of its description (base/output_fields.h). */
+    components are those of its description (base/output_fields.h). Item by
+    item, components adjacent. The name must have been described, as
+    DescribeField does at the bottom of the file that owns the field. Local. */
 template <typename Value>
 void add_field(std::vector<OutputField> &fields, const std::string &name,
                const std::size_t n, const Value &value)
@@ -36,17 +41,23 @@ void add_field(std::vector<OutputField> &fields, const std::string &name,
 }
 
 /** Mass, velocity of the center of mass, kinetic energy and bounding box of
-    all owned nodes that are not left out ([n_owned], may be null). Collective,
-    the same for every number of ranks. */
+    all owned nodes that are not left out ([n_owned], may be null).
+    Collective, the same for every number of ranks. By exact sums of lumped
+    masses m [kg]: sum m, sum m v / sum m [m/s] (0 without mass), 1/2 sum m
+    v^2 [J]; the box [m] is that of present positions, inverted where no node
+    counts. */
 BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
                            const std::vector<char> *left_out = nullptr);
 
-/** Start of the array of a scalar state variable in [state][n], or null. */
+/** Start of the array of a scalar state variable in [state][n], or null. A
+    tensor takes six rows, of which this is the first (xx). Points into the
+    array, so it lives as long. */
 const double *find_state(const std::vector<StateVariable> &variables,
                          const double *state, const std::size_t n,
                          const std::string &name);
 
-/** Number of arrays that the state variables take. */
+/** Number of arrays that the state variables take. One per scalar, six
+    (n_symmetric) per tensor. */
 std::size_t count_states(const std::vector<StateVariable> &variables);
 } // namespace sabot
 

@@ -15,8 +15,10 @@
 
 namespace sabot
 {
-/** What the kernels need of a body's material at rest and of its options: read
-    once per step, not once per cell. */
+/** What the kernels need of a body's material at rest and of its options:
+    read once per step, not once per cell. c is the dilatational wave speed
+    at rest; mu and lambda bound the stable step, the stress comes from the
+    law. */
 struct CellConstants
 {
   double sound_speed;    // c [m/s]

@@ -34,6 +34,7 @@ public:
                                          const FemOptions &options,
                                          std::shared_ptr<const Material>);
 
+  /** One point a cell; cells come by set_up(). */
   OnePoint(const std::string &body_name, const FemOptions &options,
            std::shared_ptr<const Material> material)
       : Hexahedra(body_name, options, material, 1)
@@ -43,6 +44,8 @@ public:
   void set_up(
       const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
       const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
+  /** -[P B_a + modal forces], recomputed cell by cell with plain arithmetic;
+      P = V_0 J (sigma - q 1) F^-T and what the modes add. */
   void cell_forces(const NodalState &nodes, const std::size_t cell,
                    Vec force[8]) const override;
   void keep(const std::vector<std::size_t> &kept) override;
@@ -62,7 +65,9 @@ protected:
                             const double present_volume, const Vec kept[4],
                             Vec mode[4], Mat &P) const = 0;
 
-  /** Reference data of four cells, read twice per step. */
+  /** Reference data of four cells, read twice per step. Gradients are means
+      over the cell (Flanagan & Belytschko 1981), V_0 is exact; node numbers
+      are local. */
   struct Geometry
   {
     Pack B[8][3];     // mean gradients [1/m]
@@ -87,7 +92,10 @@ protected:
   };
   static constexpr std::size_t packs_per_batch = batch_size / n_lanes;
 
-  /** Subtract the forces of the stress of a pack, and those that pend. */
+  /** Subtract the forces of the stress of a pack, and those that pend. -(P
+      B_a + sum over modes), P = (sigma - q 1) V_0 J F^-T + the modes' part;
+      corners are added cell by cell in ascending order, so that nodal sums
+      do not depend on ranks. */
   void scatter(NodalState &nodes, const std::size_t pack);
 
   AlignedVector<Geometry> geometry;
@@ -96,6 +104,8 @@ protected:
   alignas(64) Pending pending[packs_per_batch];
 
 private:
+  /** Lanes behind the last cell repeat it with a volume of 0: the arithmetic
+      stays finite and nothing is added. */
   void fill_up();
 };
 } // namespace sabot

@@ -30,8 +30,12 @@ class OnePointLoop : public OnePoint
 public:
   using OnePoint::OnePoint;
 
-  /** Kinematics, stress and forces, batch by batch. What a batch needs stays in
-      the first-level cache between the three. */
+  /** Kinematics, stress and forces, batch by batch. What a batch needs stays
+      in the first-level cache between the three. Nodal forces are
+      -f_internal [N], added to nodes.force; dt [s] leads from the last
+      positions to these, 0 at the start. Cells of other ranks' nodes are
+      here as well, so nothing is exchanged. Throws PhysicsError where a cell
+      inverts and the option says stop. */
   void add_forces(NodalState &nodes, const double dt) override
   {
     reset_steps();
@@ -51,22 +55,34 @@ public:
 
 protected:
   /** Four cells as they are now; nodal sums over the corners in the space of
-      the base vectors h_m are [component][mode]. */
+      the base vectors h_m are [component][mode]. Present quantities belong
+      to the positions x at the end of the step, B_a and h_m to the reference
+      configuration. L and velocity are set only where a form or the option
+      shrink asks for them. */
   struct FourCells
   {
     const Geometry &g;
+    /** F = sum x_a (x) B_a, the mean of the deformation gradient over the
+        cell (Flanagan & Belytschko 1981), from the undeformed state. */
     PackMat F, inverse; // F^-1
     PackMat S;          // sum B_a (x) B_a [1/m^2]
     PackMat L;          // sum v_a (x) B_a [1/s]
     Pack J, J_inverse;
-    Pack J_root;      // J^(1/3)
+    Pack J_root; // J^(1/3)
+    /** Four modes of the positions, by the vectors h of Flanagan &
+        Belytschko; what of them a linear field explains is taken off by the
+        form. */
     Pack modal[3][4]; // sum h_a x_a [m]
+    /** Of the corners, [component][corner] [m/s]. */
     Pack velocity[3][8];
   };
 
 private:
   /** From the positions of the corners of four cells to strain, spin, stable
-      step and hourglass forces, on one page; advances what they keep. */
+      step and hourglass forces, on one page; advances what they keep. In the
+      order of what depends on what: F, J; what inverts; l; strain for the
+      material; F^-1; stable step and viscosity; modes; hourglass forces. k =
+      4 (pack mod packs per batch) is the first point in the batch. */
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t pack, const double dt);
   void ask_for(const std::size_t pack) const;
@@ -83,7 +99,9 @@ private:
   static Pack step_of_quarter_volume(const FourCells &cells);
 };
 
-/** All cache lines of the pack that comes next. */
+/** All cache lines of the pack that comes next. Geometry and motion of a
+    pack are read once per step from main memory, in order; asking one pack
+    ahead hides their latency behind the arithmetic of this one. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
 {
@@ -99,7 +117,10 @@ SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
   ask(motion[pack]);
 }
 
-/** sum a_a (x) B_a of nodal vectors, which are kept by component. */
+/** sum a_a (x) B_a of nodal vectors, which are kept by component. Of
+    positions it is F, of velocities L with v = L X [1/s] in the reference
+    frame. The corner values stay for the hourglass sums,
+    value[component][corner], so that nodes are gathered once. */
 template <typename Form>
 SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
                                                          const Vec *const nodal,
@@ -120,7 +141,11 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
   return sum;
 }
 
-/** Cells that lost a third of their volume in one step are judged. */
+/** Cells that lost a third of their volume in one step are judged. Written
+    as a negation so that a volume ratio that is no number is judged, too.
+    Where the judgment is that the cell rests, F and J go back to those of
+    the last step: no strain, no work, until erosion takes the cell out at
+    the end of the step. Lanes without a cell are not judged. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
@@ -143,8 +168,10 @@ OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
     }
 }
 
-/** What the material needs: strain increment sym l, spin increment skew l,
-    J = det F and half of the mid volume V_0 (J + J_old)/2 [m^3]. */
+/** What the material needs: strain increment sym l, spin increment skew l, J
+    = det F and half of the mid volume V_0 (J + J_old)/2 [m^3]. Increments
+    without unit in the middle configuration, into the points k to k + 3 of
+    the batch. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
@@ -157,8 +184,10 @@ OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
   store_pack(&batch.half_volume[k], 0.25 * cells.g.volume * (cells.J + J_old));
 }
 
-/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces:
-    f_a = -(V_0 J sigma F^-T) B_a. */
+/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces: f_a = -(V_0 J
+    sigma F^-T) B_a. Both come from the adjugate, J F^-1 = adj F, so that a
+    division by J is needed for the inverse only. The unit of the second is
+    [m^3]. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
 {
@@ -173,7 +202,10 @@ SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
 }
 
 /** G = F^-T S F^-1, the sum over the corners of b_a (x) b_a with the present
-    gradients b_a = F^-T B_a [1/m^2]; xx, yy, zz, xy, yz, xz. */
+    gradients b_a = F^-T B_a [1/m^2]; xx, yy, zz, xy, yz, xz. S = sum B_a (x)
+    B_a is constant, so the eight corners are not visited again. G measures
+    how thin the cell is now: a slab of thickness h has lambda_max G = 1/(2
+    h^2). */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::present_squares(const FourCells &cells,
                                                        Pack G[6])
@@ -195,6 +227,12 @@ SABOT_IN_LOOP void OnePointLoop<Form>::present_squares(const FourCells &cells,
  *
  * with the thickness h = (2 lambda_max G)^(-1/2), that of a slab. The damping
  * ratio of the cell's own compression is xi = c1 + c2 h |d|/c.
+ *
+ * Lame's constants are those at rest; Hexahedra shortens the step where the
+ * material has stiffened. d = tr l / dt [1/s], negative when closing; at dt = 0
+ * there is no rate and no viscosity. A negative lambda counts as 0, which keeps
+ * the bound safe. Writes q [Pa] into the batch and returns the step [s] of each
+ * lane.
  */
 template <typename Form>
 SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
@@ -222,7 +260,10 @@ SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
 }
 
 /** In which the present velocities take a quarter of the volume, the rate of
-    which is J tr(L F^-1) with L = sum v_a (x) B_a. */
+    which is J tr(L F^-1) with L = sum v_a (x) B_a. For the option shrink: dt
+    <= 0.25/|tr L F^-1| [s] of each lane; about infinite for cells that
+    expand. Four such steps in a row leave (3/4)^4 of a volume, so none
+    inverts. */
 template <typename Form>
 SABOT_IN_LOOP Pack
 OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
@@ -236,6 +277,11 @@ OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
   return 0.25 / pack_max(-rate, slowest + zero);
 }
 
+/** The result of a pack: strain, spin, J, half volume, viscous pressure and
+    step in the batch; V_0 J F^-T, modal forces and their part of P in
+    pending; F and what the form keeps of its modes in motion. The stress of
+    this step is not known yet: forces of the stress come in scatter(), after
+    the law. */
 template <typename Form>
 void OnePointLoop<Form>::kinematics(const CellConstants &constants,
                                     const NodalState &nodes,
