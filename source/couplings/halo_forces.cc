@@ -1,3 +1,5 @@
+// Forces on the nodes of a halo: back to the bodies, their work, measures.
+
 #include "sabot/couplings/halo_forces.h"
 
 #include <algorithm>

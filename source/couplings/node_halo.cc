@@ -1,3 +1,6 @@
+// Nodes of several bodies that a rank needs for a coupling, wherever they are
+// owned: numbering, exchange of motion, return of forces.
+
 #include "sabot/couplings/node_halo.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Which nodes of other bodies may touch which particles, over all ranks.
+
 #include "sabot/couplings/particle_search.h"
 
 #include "sabot/couplings/box_buckets.h"

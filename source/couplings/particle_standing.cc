@@ -1,3 +1,6 @@
+// Where a node stands before the surface that particles make: side, depth, and
+// the particles that share its force.
+
 #include "sabot/couplings/particle_standing.h"
 
 #include "sabot/couplings/mirror_images.h"

@@ -1,3 +1,6 @@
+// Tied nodes: which face or cell each follower belongs to, its motion, and how
+// its mass and force go to the leaders.
+
 #include "sabot/couplings/tie.h"
 
 #include "sabot/base/error.h"

@@ -45,7 +45,10 @@ public:
             const unsigned int n_points);
   virtual ~Hexahedra() = default;
 
-  /** Take the cells of @p mesh with these numbers and local nodes. */
+  /** Take the cells of @p mesh with these numbers and local nodes. Cells
+      ascend by their global numbers cell_id, connectivity holds local nodes.
+      Computes the reference gradients [1/m] and volumes [m^3] and puts all
+      points at rest; the mesh is not needed afterwards. */
   virtual void
   set_up(const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
          const std::vector<std::array<std::uint32_t, 8>> &connectivity) = 0;

@@ -262,8 +262,7 @@ SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
 /** In which the present velocities take a quarter of the volume, the rate of
     which is J tr(L F^-1) with L = sum v_a (x) B_a. For the option shrink: dt
     <= 0.25/|tr L F^-1| [s] of each lane; about infinite for cells that
-    expand. Four such steps in a row leave (3/4)^4 of a volume, so none
-    inverts. */
+    expand. */
 template <typename Form>
 SABOT_IN_LOOP Pack
 OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)

@@ -27,7 +27,8 @@ public:
   }
 
   // Owned particles by local index, now
-  /** Zero normal where it does not lie on the surface of the start. */
+  /** Zero normal where it does not lie on the surface of the start. Normal
+      and area follow the total F. */
   SurfacePoint surface_point(const std::size_t i) const override;
   VolumePoint volume_point(const std::size_t i) const override;
   /** All that have a failed bond: they may meet others again. */
@@ -37,7 +38,7 @@ public:
   std::vector<Fragment> connected_pieces() const override;
 
   /** Label of the piece of each owned particle, see fragment_labels().
-      Collective. */
+      Collective. [n_owned]; pieces by bonds that have not failed. */
   std::vector<GlobalIndex> labels() const;
 
 private:

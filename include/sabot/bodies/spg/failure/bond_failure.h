@@ -29,6 +29,7 @@ public:
   explicit BondFailure(const SpgOptions &options);
 
   void allocate(const std::size_t n_owned);
+  /** Every few steps: a regular kernel update looks as well. */
   bool is_due(const unsigned int step) const { return step % interval == 0; }
 
   /** Mark the bonds whose criterion is met now: its mean over both ends above

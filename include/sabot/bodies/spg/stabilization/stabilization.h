@@ -26,6 +26,10 @@ struct SpgParts;
  *
  * All functions act on the whole body, on all ranks alike; those that exchange
  * ghosts say "collective".
+ *
+ * Requirements on a form: it vanishes for linear fields and for rigid motions,
+ * keeps both momenta exact, and its work is counted by work(), so that the
+ * ledger closes (doc/theory/spg.md).
  */
 class Stabilization
 {
@@ -53,7 +57,9 @@ public:
 
   /** What holds a particle's bonds now, positions as at the last force
       evaluation: forces of owned nodes [N], stress and energies advanced by
-      @p dt [s] (0: forces only). Collective. */
+      @p dt [s] (0: forces only). Collective. body.nodes.force is
+      overwritten. The form yields with the material: its stress enters by
+      extra_square and is scaled by the return factor. */
   virtual void compute_forces(SpgParts &body, const double dt) = 0;
   /** What is done to the motion between two steps; @p step: the last one's
       number. Collective. */

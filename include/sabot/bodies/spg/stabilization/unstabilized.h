@@ -7,12 +7,17 @@
 
 namespace sabot
 {
-/** The SPG step without a form's part (spg_step.h says what the hooks are): the
-    choice "none", and the base of forms that act between steps only. */
+/** The SPG step without a form's part (spg_step.h says what the hooks are):
+    the choice "none", and the base of forms that act between steps only.
+    Direct nodal integration as it is: sawtooth motions cost no energy. The
+    stress of a particle is that of its material alone, work() stays zero,
+    and K of the linearized body is that of the gradients. */
 class Unstabilized : public Stabilization
 {
 public:
+  /** The SPG step with hooks that do nothing. Collective. */
   void compute_forces(SpgParts &body, const double dt) override;
+  /** The linearized body with hooks that do nothing. Collective. */
   void apply_linearized(const SpgParts &body, const AlignedVector<Vec> &motion,
                         AlignedVector<Vec> &force) override;
 
