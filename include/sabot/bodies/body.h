@@ -144,6 +144,10 @@ public:
  * A body is made in two phases: its constructor lays out all nodes, the same
  * on every rank (partition_points()); distribute() then keeps what this rank
  * owns.
+ *
+ * SI units, one fixed frame. Node arrays hold owned nodes first, then ghosts,
+ * both by ascending global number. "Collective" means that all ranks of the
+ * communicator call it together; everything else is local.
  */
 class Body
 {
@@ -175,13 +179,16 @@ public:
   /** Work of the current forces on prescribed velocities along half a step's
       motion (called before and after each drift). */
   virtual void accumulate_work(const double /*half_dt*/) {}
-  /** Copy positions and velocities that the forces need to other ranks. */
+  /** Copy positions and velocities that the forces need to other ranks.
+      After every drift, before compute_forces(). Collective. */
   virtual void update_ghosts() = 0;
   /** Set force of every owned node to external - internal - stabilization.
       @p dt is the step that led to the current positions (0 at the start).
       Collective. */
   virtual void compute_forces(const double time, const double dt) = 0;
-  /** Largest stable step seen from this rank, in the current state. */
+  /** Largest stable step seen from this rank, in the current state. [s],
+      without the scene's step factor; item is a global number. Local: the
+      integrator takes the least of all. */
   virtual StableStep stable_step() const = 0;
   /** What is done between steps: kernel updates, bond failure, erosion. Where
       this changes the body's part of the forces, the array of forces already
@@ -189,7 +196,8 @@ public:
       @return whether it may have, the same on all ranks. */
   virtual bool update_topology(const unsigned int step, const double time) = 0;
 
-  /** Add this rank's share. */
+  /** Add this rank's share. [J], owned nodes and items only, so that the sum
+      over ranks counts each once. Local. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;
   /** The whole body at this moment. Collective, same on all ranks. */
   virtual BodyMeasures measure() const = 0;

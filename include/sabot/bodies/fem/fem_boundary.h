@@ -32,12 +32,16 @@ public:
    * clamped, driven and symmetry faces share nodes, symmetry gives way to a
    * driven face, and both to a clamped one.
    * @param local  number on this rank of the mesh's nodes that are here
+   *
+   * Ids of the faces are their numbers in the mesh; the typical spacing [m] is
+   * the root of the mean area of all faces of the mesh, the same on every rank.
    */
   void set_up(const HexMesh &mesh,
               const std::unordered_map<GlobalIndex, std::uint32_t> &local,
               const std::size_t n_owned, VelocityConstraints &constraints);
 
-  /** As of now, for couplings. */
+  /** As of now, for couplings. Bulk modulus in Pa. node_share halves a
+      node's part for each plane of symmetry through it. */
   ContactSurface surface(const std::size_t n_owned,
                          const double bulk_modulus) const;
 

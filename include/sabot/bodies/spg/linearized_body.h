@@ -15,7 +15,9 @@ namespace sabot
     at rest: 2 mu sym L + lambda tr L 1 [Pa]. lambda = K - 2 mu/3. The skew
     part of the slope has no stress: the reference state is free of stress,
     so rotations are free. mu and lambda in Pa, slope without unit where the
-    motion is a displacement [m]; linear, so any unit goes through. */
+    motion is a displacement [m]; linear, so any unit goes through. Pressure
+    and deviator are those of the tangent at rest: equations of state are
+    linearized at zero pressure. */
 struct ElasticResponse
 {
   explicit ElasticResponse(const Material &law)

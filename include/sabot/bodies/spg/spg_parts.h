@@ -22,8 +22,9 @@ struct NodalState;
 struct ParticleFields;
 struct SpgOptions;
 
-/** Particles that go through the SPG step together; what they need stays in the
-    first-level cache. */
+/** Particles that go through the SPG step together; what they need stays in
+    the first-level cache. The same for all forms, whose own scratch has this
+    many places. */
 constexpr std::size_t spg_batch_size = 64;
 static_assert(spg_batch_size <= max_batch_points, "materials take no more");
 
@@ -85,16 +86,20 @@ struct SpgParts
 {
   const std::string &name; // of the body, for messages
   const SpgOptions &options;
-  /** Positions (with ghosts, up to date when forces are asked for), velocities,
-      masses; forces of owned nodes are the step's result. */
+  /** Positions (with ghosts, up to date when forces are asked for),
+      velocities, masses; forces of owned nodes are the step's result.
+      Ghosts' velocities and masses are those of the last renumbering only. */
   NodalState &nodes;
   const GhostExchange &exchange; // of particles
   BondList &bonds;        // neighbors of owned particles, symmetric weights
   ParticleFields &fields; // deformation and kernels
   MaterialPoints &points; // stress and state, one point a particle
+  /** Spacings and support of the start, limits of the update. */
   const LagrangianKernel &kernel;
   const Approximation &approximation; // moments or stored gradients
   BondFailure &failure;               // failed bonds and what they let go
+  /** Rule for particles that lost a direction; has scratch space, so one a
+      body. */
   ResidualStrength &residual_strength;
   const SpgStableStep &stable_step;
   const VelocityConstraints &constraints;
