@@ -16,14 +16,18 @@
 
 namespace sabot
 {
-/** A proposal for the stable step and who makes it. */
+/** A proposal for the stable step and who makes it. The default proposes
+    nothing: the largest double. item is a global number, for the log and for
+    messages of a step that has become too short. */
 struct StableStep
 {
   double dt = std::numeric_limits<double>::max(); // [s]
   GlobalIndex item = -1;                          // node, particle or cell
 };
 
-/** A plane across an axis on which a model is cut. */
+/** A plane across an axis on which a model is cut. axis 0, 1, 2 for x, y, z.
+    Nothing crosses it: nodes on it have no velocity along the axis, and
+    contact sees mirror images beyond it. */
 struct SymmetryPlane
 {
   int axis;
@@ -35,7 +39,8 @@ struct SymmetryPlane
 };
 
 /** What other bodies may touch; indices are local. Faces are quadrilaterals
-    with outward normal by the right-hand rule. */
+    with outward normal by the right-hand rule. Made anew when asked for:
+    couplings keep it until contact_surface_version() changes. */
 struct ContactSurface
 {
   std::vector<std::array<std::size_t, 4>> faces; // any local node index
@@ -63,6 +68,9 @@ struct SurfacePoint
  * A node of a body without faces as part of its volume: it fills the share
  * content phi(|to_unit (x - x_j)|) of the space at x, phi the cubic spline. The
  * shares of all nodes add to 1 deep inside the body, to 1/2 on its surface.
+ *
+ * content has no unit: with the ellipsoid's volume it gives the matter of the
+ * node.
  */
 struct VolumePoint
 {
@@ -79,7 +87,8 @@ struct DebrisView
   double spacing = 0.;            // [m]
 };
 
-/** A connected piece of a body whose bonds may fail. */
+/** A connected piece of a body whose bonds may fail. By Body::fragments(); a
+    particle without bonds is a fragment of its own. */
 struct Fragment
 {
   GlobalIndex n_particles = 0;
@@ -87,7 +96,9 @@ struct Fragment
   std::array<double, 3> velocity{}; // of the center of mass [m/s]
 };
 
-/** Damage and flow at one place of a body's material. */
+/** Damage and flow at one place of a body's material. For the verdict on
+    zones of particles: how far flow and failure came by the end of a run. In
+    the undeformed configuration. */
 struct MaterialSite
 {
   std::array<double, 3> reference_position; // particle or center of cell [m]
@@ -95,13 +106,16 @@ struct MaterialSite
   double failed_share = 0.;                 // of the bonds that end here
 };
 
-/** View of a body whose surface is faces with cells behind them. */
+/** View of a body whose surface is faces with cells behind them. Local to a
+    rank. The parallel arrays are those of contact_surface(). */
 class FaceView
 {
 public:
   virtual ~FaceView() = default;
   /** Nodes (local, VTK order) of the cells behind the faces of
-      contact_surface(), where this rank owns the face's lowest node. */
+      contact_surface(), where this rank owns the face's lowest node. Ties
+      take the trilinear functions of such a cell for nodes that stand off
+      its face. */
   virtual std::vector<std::array<std::size_t, 8>>
   cells_behind_faces() const = 0;
   /** Whether the faces deform: only such a body leads a tie or folds onto
@@ -163,7 +177,9 @@ public:
   partition_points() const = 0;
   /** Cost of one node, relative to others, for the partition. */
   virtual double partition_weight() const = 0;
-  /** Keep the nodes whose owner is this rank; all ranks call it. */
+  /** Keep the nodes whose owner is this rank; all ranks call it. Positions
+      at the start and all reference data are made here, and data of the
+      whole body are released. Collective. */
   virtual void distribute(const std::vector<int> &owner,
                           MPI_Comm communicator) = 0;
 
@@ -174,7 +190,9 @@ public:
   NodalState &nodes() { return nodal_state; }
   const NodalState &nodes() const { return nodal_state; }
 
-  /** Velocities that are prescribed, e.g. of clamped nodes. */
+  /** Velocities that are prescribed, e.g. of clamped nodes. After every
+      kick; a rigid body also collects the impulses of its nodes here, which
+      makes it collective. */
   virtual void impose_velocities(const double time) = 0;
   /** Work of the current forces on prescribed velocities along half a step's
       motion (called before and after each drift). */
@@ -201,10 +219,14 @@ public:
   virtual void add_energies(EnergyLedger &ledger) const = 0;
   /** The whole body at this moment. Collective, same on all ranks. */
   virtual BodyMeasures measure() const = 0;
+  /** This rank's part, at present positions [m]; names and units of fields
+      are described ones. */
   virtual OutputMesh output_mesh() const = 0;
-  /** Everything that a restart needs. */
+  /** Everything that a restart needs. The same order for writing and
+      reading; collective where bonds or ghosts have to be found again. */
   virtual void visit_state(StateVisitor &visitor) = 0;
 
+  /** This rank's part of what may be touched, now. */
   virtual ContactSurface contact_surface() const = 0;
   /** Changes whenever contact_surface() would return something new. */
   virtual unsigned int contact_surface_version() const { return 0; }

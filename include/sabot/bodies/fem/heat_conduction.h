@@ -45,10 +45,13 @@ public:
   unsigned int last_iterations() const { return n_iterations; }
 
 private:
-  /** Nodal temperatures with the heat of the cells around; once. */
+  /** Nodal temperatures with the heat of the cells around; once. Means of
+      the cells around a node, weighted by their capacities, so that the heat
+      is that of the cells. */
   void start(const double *temperature);
   /** K_ab = k integral(grad N_a . grad N_b) at the present positions, 2x2x2
-      Gauss points [W/K]. */
+      Gauss points [W/K]. Every call anew, as cells deform; rows of owned
+      nodes are complete, since all cells around them are here. */
   void assemble(const NodalState &nodes);
   /** product = (C + dt K) x / C_max, C_max the largest nodal capacity of all
       ranks, for owned nodes; ghosts of x are set first. */

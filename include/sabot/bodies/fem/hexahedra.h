@@ -135,7 +135,9 @@ protected:
   /** Points per batch; what one needs stays in the first-level cache. */
   static constexpr std::size_t batch_size = 32;
   static_assert(batch_size <= max_batch_points, "materials take no more");
-  /** What a batch carries from kinematics to the material and back. */
+  /** What a batch carries from kinematics to the material and back. The step
+      of a cell stands at its first point; stiffening is the law's modulus
+      over the one at rest, at each point. */
   struct PointBatch : PointStepArrays<batch_size>
   {
     double step[batch_size]; // of cells; n_points of them apart

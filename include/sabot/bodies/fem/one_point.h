@@ -54,7 +54,9 @@ public:
 protected:
   Mat gradient(const std::size_t point) const override;
 
-  /** Whether the modes that a cell keeps are sum h_b X_b, set once. */
+  /** Whether the modes that a cell keeps are sum h_b X_b, set once. True for
+      a form with stiffness, which measures from the undeformed cell; a viscous
+     one keeps its forces of the last step, zero at first. */
   virtual bool keeps_reference_modes() const = 0;
   /** Modal forces of one cell in its present state [N], recomputed for a cell
       that is about to go.
@@ -76,14 +78,19 @@ protected:
     Pack size_square; // V_0^(2/3)
     std::uint32_t node[8][n_lanes];
   };
-  /** Per cell what the next step needs; what the modes are is up to the form of
-      hourglass control. */
+  /** Per cell what the next step needs; what the modes are is up to the form
+      of hourglass control. At the end of the last step; modes are kept
+      [mode][component]. With viscosity they are the modal forces of the last
+      step [N], for the work of the mean of both ends; with stiffness the
+      modes of the undeformed cell [m]. */
   struct Motion
   {
     PackMat F;
     Pack mode[4][3];
   };
-  /** Of one pack of cells, from kinematics to forces. */
+  /** Of one pack of cells, from kinematics to forces. Written by the
+      kinematics of the loop, read by scatter() once the law has the stress:
+      V_0 J F^-T in m^3, P in N m, modal forces in N. */
   struct Pending
   {
     PackMat stress_to_force; // V_0 J F^-T

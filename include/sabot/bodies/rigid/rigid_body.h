@@ -123,7 +123,8 @@ private:
   /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. Of a prescribed body the
       angular velocity of the scene. */
   Vec spin(const Mat &rotation) const;
-  /** Faces whose nodes are all here, and the mean edge of all faces. */
+  /** Faces whose nodes are all here, and the mean edge of all faces. Ids of
+      faces are their numbers in the mesh. */
   void take_faces(const LocalPart &part);
   /** Rigid motion of the owned nodes, v = p/m + omega x r. Ghosts as well;
       the owned ones are kept for the impulse of the next kick. */

@@ -100,6 +100,8 @@ public:
   std::size_t end(const std::size_t i) const { return row_start[i] + count[i]; }
   /** Bonds of owned particle i that have not failed. */
   std::size_t n_bonds(const std::size_t i) const { return count[i]; }
+  /** Places of bonds of owned particles, used or not; constant between two
+      calls of connect(). */
   std::size_t capacity() const { return neighbor.size(); }
   /** Capacity and the bonds of ghosts that end here. */
   std::size_t n_with_ghosts() const
@@ -131,6 +133,8 @@ public:
   void reconnect();
 
 private:
+  /** Bond of owned particle i to the neighbor with this global number.
+      Throws std::logic_error where there is none: the two ends must agree. */
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;
 
   static constexpr std::uint32_t is_new = 0xffffffffu;

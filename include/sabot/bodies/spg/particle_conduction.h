@@ -32,7 +32,8 @@ namespace sabot
 class ParticleConduction
 {
 public:
-  /** What the body holds; valid while this lives. */
+  /** What the body holds; valid while this lives. Entries of ghosts are
+      needed for positions only; coefficients of ghosts are exchanged. */
   struct Cloud
   {
     const BondList &bonds;
@@ -67,6 +68,7 @@ private:
   const Cloud cloud;
   const std::vector<double> capacity;
   MPI_Comm communicator;
+  /** By which the system is scaled to entries of order 1 [J/K]. */
   double largest_capacity = 0.; // over ranks
   /** a and, in the fourth lane, b; owned and ghosts. */
   AlignedVector<Vec> coefficient;

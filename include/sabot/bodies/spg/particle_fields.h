@@ -51,9 +51,13 @@ struct ParticleFields
   std::vector<double> stiffening;
   AlignedVector<Vec> own_force; // [N], without what couplings added
 
-  /** Undeformed particles with these volumes [m^3]. */
+  /** Undeformed particles with these volumes [m^3]. [n_owned]; F_inc = F_ref
+      = 1, V_ref = V_0, no stiffening. Kernels come later, by
+      LagrangianKernel::start(). */
   void allocate(const std::vector<double> &volume, const bool stiffens);
-  /** Room for ghosts: @p n_local particles, owned ones included. */
+  /** Room for ghosts: @p n_local particles, owned ones included. New entries
+      of stress are zero, of kernels the caller's to fill; positions at the
+      last update are set as a whole by the kernel update. */
   void resize(const std::size_t n_local);
 
   /** Total F of an owned particle. */

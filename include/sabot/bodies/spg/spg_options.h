@@ -88,7 +88,8 @@ struct SpgOptions
   std::uint32_t symmetry_faces = 0, clamped_faces = 0;
 
   /** Whether particles store the gradients of their functions; least squares
-      finds them from moments. */
+      finds them from moments. That costs a vector per bond, and one per
+      ghost's bond. */
   bool stores_gradients() const
   {
     return approximation != Approximation::least_squares;

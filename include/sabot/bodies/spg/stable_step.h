@@ -24,6 +24,12 @@ struct SpgParts;
  * times a factor that says by how much the bound is too short. That factor is
  * measured on the whole body (Lanczos) and holds for particles whose bonds are
  * all there; the others keep the bound.
+ *
+ * Any eigenvalue of M^-1 K is at most the largest row sum of absolute values
+ * over the mass (Gershgorin); each particle keeps its own row's 2/sqrt(row/m),
+ * so that the log can say who limits the step. Longer neighborhoods make rows
+ * longer but not frequencies higher, which is what the factor gives back: 2 to
+ * 2.5 in an intact cloud.
  */
 class SpgStableStep
 {

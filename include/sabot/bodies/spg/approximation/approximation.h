@@ -29,9 +29,10 @@ struct ParticleFields;
  * one: a direction counts as lost where its eigenvalue is below a fraction of
  * the intact middle one (doc/theory-spg.md).
  *
- * First order: sum g_NJ = 0 with the particle itself, sum dX (x) g_NJ = 1, so
- * that F is exact for linear fields on any cloud. Frame: X, not the present
- * configuration; weights do not change between updates.
+ * First order: sum g_NJ = 0 with the particle itself, sum dX (x) g_NJ = 1 where
+ * no direction is lost, so that F is exact for linear fields on any cloud.
+ * Frame: X, not the present configuration; weights do not change between
+ * updates.
  */
 class Approximation
 {
@@ -76,7 +77,9 @@ public:
   // Owned particles
   AlignedVector<Mat> moment_inverse; // M^-1, lost directions damped [1/m^2]
   /** Whether the bonds of a particle no longer span space: for what failed
-      metal carries. */
+      metal carries. Until its volume has come back to that of the start,
+      also where its neighborhood spans space again: a crack heals only once
+      it has closed. */
   std::vector<char> lost_direction;
   std::vector<double> spread;        // S = sum phi |xi|^2
   std::vector<double> intact_spread; // S of the start

@@ -45,12 +45,14 @@ public:
       others. */
   bool has_strained(const ParticleFields &fields) const;
   /** Whether a particle has been stretched or flattened by so much that the
-      update cannot wait. @p change: largest of |F|^2 - 2 and |F^-1|^2 - 2. */
+      update cannot wait. @p change: largest of |F|^2 - 2 and |F^-1|^2 - 2.
+      sqrt(change) against the entry "Kernel update change"; on this rank. */
   bool has_changed(const double change) const;
   /** Let kernels, volumes and F of the owned particles follow what happened
       since the last update, which starts anew. Wu & Wu 2018, Eq. 16: H :=
       F_inc H, V_ref := J_inc V_ref, F_ref := F_inc F_ref, F_inc := 1.
-      Ghosts' kernels have to be exchanged afterwards. */
+      Ghosts' kernels have to be exchanged afterwards. Singular values of H
+      over that of the start are kept within 0.15 and 6. */
   void follow(ParticleFields &fields) const;
 
   /** Edge of the cube as large as the cell of an owned particle's lattice at

@@ -47,7 +47,8 @@ public:
       over BondList::n_with_ghosts() [1/m]; null where the form needs none. */
   virtual AlignedVector<Mat> *second_derivatives() { return nullptr; }
 
-  /** Once, before anything else, for the owned particles. */
+  /** Once, before anything else, for the owned particles. Sets work() to
+      zero, [n_owned]; forms that override it call it. */
   virtual void allocate(const SpgParts &body);
   /** The list of bonds has changed: carry over what belongs to those that
       stayed. */
@@ -65,17 +66,21 @@ public:
       number. Collective. */
   virtual void after_step(SpgParts &, const unsigned int) {}
 
-  /** A kernel update begins; bonds, kernels and functions are the old ones. */
+  /** A kernel update begins; bonds, kernels and functions are the old ones.
+      A form that is late with something (a return factor due on residuals)
+      settles it here. Local. */
   virtual void begin_kernel_update(const SpgParts &) {}
   /** Bonds, moments and functions are new ones, at the start and after every
-      kernel update. */
+      kernel update. Where a form finds the stiffness of a particle, as far
+      as it depends on kernel and moment. Local. */
   virtual void follow_functions(const SpgParts &) {}
   /** The end of a kernel update: the reference configuration is the present
       one. @p was_lost: which particles had lost a direction before. */
   virtual void end_kernel_update(const SpgParts &, const std::vector<char> &) {}
 
-  /** Energy that an owned particle's bonds hold and would lose with them [J],
-      0 where the form holds none. */
+  /** Energy that an owned particle's bonds hold and would lose with them
+      [J], 0 where the form holds none. For the ledger's failure: what is
+      held before bonds go, less what is held after. Local. */
   virtual double held_energy(const SpgParts &, const std::size_t) const
   {
     return 0.;
