@@ -87,7 +87,7 @@ inline Mat incremental_deformation_gradient(const MotionViews &in,
     increment of displacement by the position of the middle configuration. l
     is without unit; strains are tensor components in the order xx, yy, zz,
     xy, yz, xz, spins w_ij = (l_ij - l_ji)/2 for xy, yz, xz, both into place
-    k of the batch. A rigid rotation gives no strain, of whatever size
+    k of the batch. A rigid rotation below half a turn gives no strain
     (Hughes & Winget 1980). */
 inline void split_increment(const Mat &l, const std::size_t k, StepWork &out)
 {
