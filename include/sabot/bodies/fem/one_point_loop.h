@@ -50,18 +50,19 @@ public:
   }
 
 protected:
-  /** Four cells as they are now; nodal sums over the corners in the space of
-      the base vectors h_m are [component][mode]. */
+  /** Four cells as they are now; sums over the corners with the base vectors
+      h_m are [component][mode]. Set step by step by kinematics(). */
   struct FourCells
   {
+    explicit FourCells(const Geometry &g) : g(g) {}
     const Geometry &g;
     PackMat F, inverse; // F^-1
     PackMat S;          // sum B_a (x) B_a [1/m^2]
-    PackMat L;          // sum v_a (x) B_a [1/s]
+    PackMat L;          // sum v_a (x) B_a [1/s], where velocities are needed
     Pack J, J_inverse;
-    Pack J_root;      // J^(1/3)
-    Pack modal[3][4]; // sum h_a x_a [m]
-    Pack velocity[3][8];
+    Pack J_root;       // J^(1/3)
+    Pack modal[3][4];  // sum h_a x_a [m]
+    Pack corner[3][8]; // x_a [m], then v_a [m/s] where they are needed
   };
 
 private:
@@ -245,11 +246,10 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
   Motion &kept = motion[pack];
   Pending &out = pending[pack % packs_per_batch];
   const std::size_t k = pack % packs_per_batch * n_lanes;
-  FourCells cells{geometry[pack], {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  FourCells cells(geometry[pack]);
   ask_for(pack + 1);
 
-  Pack x[3][8];
-  cells.F = nodal_gradient(cells.g, nodes.position.data(), x);
+  cells.F = nodal_gradient(cells.g, nodes.position.data(), cells.corner);
   const Pack J_old = determinant(kept.F);
   cells.J = determinant(cells.F);
   rest_what_inverts(nodes, pack, J_old, cells);
@@ -264,9 +264,9 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
 
   cells.J_root = pack_cbrt(cells.J);
   for (int i = 0; i < 3; ++i)
-    hourglass_sums(x[i], cells.modal[i]);
+    hourglass_sums(cells.corner[i], cells.modal[i]);
   if (Form::needs_velocities || shrinks)
-    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.velocity);
+    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.corner);
   if (shrinks)
     step = pack_min(step, step_of_quarter_volume(cells));
   static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, kept, out);
