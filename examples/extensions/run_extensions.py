@@ -111,8 +111,6 @@ class OneFile(unittest.TestCase):
         plain, extended = linked_files("sabot"), linked_files("sabot-extended")
         if not plain:
             self.skipTest("not built by Ninja")
-        self.assertEqual([f for f in extended if f in plain],
-                         [f for f in plain if f in extended])
         self.assertEqual(set(plain) - set(extended), set())
         self.assertEqual(
             sorted(os.path.basename(f).split(".")[0] for f in extended
@@ -166,7 +164,7 @@ class Answers(unittest.TestCase):
         strain = math.log(1. + speed * result["time"] / length)
         exact = bisect(lambda e: e + flow_stress(e) / E - strain, 0., 1.)
         for eps, stress in zip(fields["effective plastic strain"],
-                               fields["von Mises stress"]):
+                               fields["von Mises"]):
             self.assertAlmostEqual(stress / flow_stress(eps), 1., delta=1e-9)
             self.assertAlmostEqual(eps, exact, delta=0.01 * exact)
 
@@ -269,11 +267,13 @@ class Answers(unittest.TestCase):
                 texts.append(file.read())
         self.assertEqual(*texts)
         rows = list(csv.DictReader(texts[0].splitlines()))
-        self.assertEqual(len(rows), 6)
+        times = [float(row["time [s]"]) for row in rows]
+        self.assertGreaterEqual(len(rows), 6)
+        self.assertEqual(times, sorted(set(times)))
+        self.assertEqual(times[0], 0.)
+        self.assertEqual(times[-1], result["time"])
         mass = 2700. * 0.005 ** 3
-        for i, row in enumerate(rows):
-            self.assertAlmostEqual(float(row["time [s]"]), i * 1e-6,
-                                   delta=1e-6 if i < 5 else 1e-15)
+        for row in rows:
             self.assertAlmostEqual(float(row["velocity z [m/s]"]), 10.,
                                    places=9)
             self.assertAlmostEqual(float(row["kinetic energy [J]"]),

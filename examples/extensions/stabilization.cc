@@ -17,9 +17,8 @@
 #include "sabot/bodies/spg/stabilization/unstabilized.h"
 #include "sabot/bodies/velocity_constraints.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
+#include <optional>
 
 namespace sabot
 {
@@ -30,7 +29,7 @@ namespace
  * fields: p is -A v with A symmetric, positive and zero for translations and
  * rotations, and both momenta are kept. With
  *
- *   k_N = beta/4 min over N and its neighbours of m/S,  S = sum phi,
+ *   k_N = beta/4 min over N and its neighbors of m/S,  S = sum phi,
  *
  * the eigenvalues of M^-1 A lie in [0, beta] (|a - b|^2 <= 2 |a|^2 + 2 |b|^2):
  * with beta <= 1 no motion is reversed and energy is only taken. The forces are
@@ -81,30 +80,24 @@ std::vector<double> ResidualDamping::damping(const SpgParts &body) const
 }
 
 /** Best fit L of the velocities around an owned particle; nothing where the
-    neighbours do not span space. */
+    neighbors hardly span space. */
 std::optional<Mat> velocity_gradient(const SpgParts &body, const std::size_t i)
 {
   const NodalState &nodes = body.nodes;
   const BondList &bonds = body.bonds;
-  Eigen::Matrix3d M = Eigen::Matrix3d::Zero(), A = M;
+  Mat M = Mat::zero(), A = M;
   for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
   {
     const std::uint32_t j = bonds.neighbor[b];
     const Vec dx = nodes.position[j] - nodes.position[i],
               dv = nodes.velocity[j] - nodes.velocity[i];
-    const Eigen::Vector3d x(dx[0], dx[1], dx[2]), v(dv[0], dv[1], dv[2]);
-    M += bonds.weight[b] * x * x.transpose();
-    A += bonds.weight[b] * v * x.transpose();
+    add_outer(M, bonds.weight[b] * dx, dx);
+    add_outer(A, bonds.weight[b] * dv, dx);
   }
-  const Eigen::LDLT<Eigen::Matrix3d> factors(M);
-  if (factors.info() != Eigen::Success || !(factors.rcond() > 1e-4))
+  const double size = trace(M) / 3.;
+  if (!(determinant(M) > 1e-3 * size * size * size))
     return std::nullopt;
-  const Eigen::Matrix3d L = factors.solve(A.transpose()).transpose();
-  Mat gradient = Mat::zero();
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      gradient.set(r, c, L(r, c));
-  return gradient;
+  return A * inverse(M);
 }
 
 void ResidualDamping::after_step(SpgParts &body, const unsigned int step)

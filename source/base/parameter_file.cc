@@ -104,6 +104,23 @@ std::pair<std::string, std::string> assignment(const std::string &text)
              : std::make_pair(trim(text.substr(0, equals)),
                               trim(text.substr(equals + 1)));
 }
+
+/** What an entry that does not accept @p value does: @p pattern as deal.II
+    describes it; of a choice the words, and which was probably meant. */
+std::string expected(std::string pattern, const std::string &value)
+{
+  const std::string selection = "[Selection ";
+  if (pattern.compare(0, selection.size(), selection) == 0)
+  {
+    const std::vector<std::string> words = split(
+        pattern.substr(selection.size(), pattern.size() - selection.size() - 2),
+        '|');
+    return "one of " + join(words, ", ") + "; did you mean \"" +
+           nearest_name(value, words) + "\"?";
+  }
+  std::replace(pattern.begin(), pattern.end(), '|', ' ');
+  return pattern;
+}
 } // namespace
 
 ParameterFile::ParameterFile(const std::string &file,
@@ -308,16 +325,9 @@ void ParameterFile::parse_into(Parameters &prm) const
       prm.leave_subsection();
     if (!accepted)
     {
-      std::string right = node->value("pattern_description", "");
-      const std::string selection = "[Selection ",
-                        number_in = "[Integer range ";
-      if (right.compare(0, selection.size(), selection) == 0)
-        right = "one of " + right.substr(selection.size(),
-                                         right.size() - selection.size() - 2);
-      std::replace(right.begin(), right.end(), '|', ' ');
       fail(entry.origin, path,
            "\"" + path + "\" cannot be \"" + entry.value + "\": expected " +
-               right);
+               expected(node->value("pattern_description", ""), entry.value));
     }
   }
 }

@@ -44,14 +44,14 @@ void ParticleContact::initialize()
 
 void ParticleContact::update_search(const unsigned int, const double dt)
 {
-  travelled += largest_closing_speed(bodies, pairs, communicator) * dt;
-  if (travelled > allowance)
+  traveled += largest_closing_speed(bodies, pairs, communicator) * dt;
+  if (traveled > allowance)
     search();
 }
 
 void ParticleContact::search()
 {
-  travelled = 0.;
+  traveled = 0.;
   int rank;
   MPI_Comm_rank(communicator, &rank);
   const ParticleSearch found(bodies, pairs, skin, communicator);
@@ -317,7 +317,7 @@ Measures ParticleContact::measure() const
 
 void ParticleContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("traveled", traveled);
   visitor.visit_value("allowance", allowance);
   visitor.visit_value("penetration", penetration_over_spacing);
   // Candidates were found where the bodies were at the last search.

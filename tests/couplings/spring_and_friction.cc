@@ -64,7 +64,8 @@ TEST(Spring, a_node_found_inside_repels_below_that_depth_only)
   EXPECT_EQ(memory.effective_depth(2e-6, 1e-7), 0.);
   EXPECT_NEAR(memory.effective_depth(2.1e-6, 1e-6), 0.1e-6, 1e-20);
   memory.release();
-  EXPECT_EQ(memory.effective_depth(1e-6, 1.), 0.5e-6 * 0. + 1e-6);
+  // A node that was outside comes in from there: all of the depth repels.
+  EXPECT_EQ(memory.effective_depth(1e-6, 1.), 1e-6);
 }
 
 TEST(Spring, gives_back_no_more_than_it_took)

@@ -84,7 +84,7 @@ struct Fragment
 {
   GlobalIndex n_particles = 0;
   double mass = 0.;                 // [kg]
-  std::array<double, 3> velocity{}; // of the centre of mass [m/s]
+  std::array<double, 3> velocity{}; // of the center of mass [m/s]
 };
 
 /** Damage and flow at one place of a body's material. */

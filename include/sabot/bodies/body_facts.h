@@ -19,7 +19,7 @@ struct BodyFacts
   /** Distance of nodes that was asked for along the axes; the finest where it
       varies [m]. */
   std::array<double, 3> spacing{};
-  bool may_fail = false;            // by a criterion, whichever
+  bool may_fail = false; // by a criterion, whichever
   /** Effective plastic strain at which it fails; nothing where another measure
       decides, or where nothing fails. */
   std::optional<double> failure_strain;

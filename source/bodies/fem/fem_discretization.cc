@@ -35,13 +35,13 @@ public:
   {
     const std::string faces = face_names(shape);
     prm.declare_knob("Symmetry faces", "", name_list(),
-                      "Plane faces on which the model is cut: no velocity "
-                      "across them, no contact with them. Among " +
-                          faces + ".");
+                     "Plane faces on which the model is cut: no velocity "
+                     "across them, no contact with them. Among " +
+                         faces + ".");
     prm.declare_knob("Cell size", "1 mm",
-                      quantity(Dimension::length, 1e-9, 1e2),
-                      "Edge of the cells; next to a carved zone, where the "
-                      "mesh is graded.");
+                     quantity(Dimension::length, 1e-9, 1e2),
+                     "Edge of the cells; next to a carved zone, where the "
+                     "mesh is graded.");
     if (shape != nullptr)
       shape->declare_grading(prm);
     prm.declare_entry("Clamped faces", "", name_list(),

@@ -1,5 +1,5 @@
-// Erosion of hexahedra: criteria, removal, the new boundary, what is kept of the
-// dead.
+// Erosion of hexahedra: criteria, removal, the new boundary, what is kept of
+// the dead.
 #include "sabot/bodies/fem/fem_erosion.h"
 
 #include <algorithm>

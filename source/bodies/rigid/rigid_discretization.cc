@@ -12,8 +12,8 @@ public:
   void declare(Parameters &prm, const Shape *) const override
   {
     prm.declare_knob("Cell size", "1 mm",
-                      quantity(Dimension::length, 1e-9, 1e2),
-                      "Edge of the cells, whose outer faces are the surface.");
+                     quantity(Dimension::length, 1e-9, 1e2),
+                     "Edge of the cells, whose outer faces are the surface.");
     RigidOptions::declare_parameters(prm);
   }
 

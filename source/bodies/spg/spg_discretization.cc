@@ -34,15 +34,15 @@ public:
   {
     const std::string faces = face_names(shape);
     prm.declare_knob("Symmetry faces", "", name_list(),
-                      "Plane faces on which the model is cut: no velocity "
-                      "across them, no contact with them. Among " +
-                          faces + ".");
+                     "Plane faces on which the model is cut: no velocity "
+                     "across them, no contact with them. Among " +
+                         faces + ".");
     prm.declare_knob("Nodal spacing", "1 mm",
-                      quantities(Dimension::length, 1, 3, 1e-9, 1e2),
-                      "Distance of neighbouring particles; of a box the "
-                      "nearest value that divides each edge, one for all or "
-                      "three, one per axis. In other shapes particles are the "
-                      "nodes of hexahedra with cells of this size.");
+                     quantities(Dimension::length, 1, 3, 1e-9, 1e2),
+                     "Distance of neighboring particles; of a box the "
+                     "nearest value that divides each edge, one for all or "
+                     "three, one per axis. In other shapes particles are the "
+                     "nodes of hexahedra with cells of this size.");
     prm.declare_entry("Carve from", "", any_text(),
                       "A FEM body whose cells inside this box or cylinder give "
                       "way to the particles. A box in a box has a lattice of "

@@ -17,21 +17,20 @@ public:
     prm.declare_entry("Length", "1 mm", length, "Length of the cylinder.");
     prm.declare_entry("Axis", "z", one_of("x|y|z"),
                       "Direction of the cylinder's axis.");
-    prm.declare_knob(
-        "Core radius", "automatic",
-        word_or("automatic", quantity(Dimension::length, 0., 1e3)),
-        "Radius of the middle part that has cells of the cell "
-        "size; automatic: 0.55 of the radius.");
+    prm.declare_knob("Core radius", "automatic",
+                     word_or("automatic", quantity(Dimension::length, 0., 1e3)),
+                     "Radius of the middle part that has cells of the cell "
+                     "size; automatic: 0.55 of the radius.");
     prm.declare_knob("Growth ratio", "1", quantity(Dimension::none, 1., 3.),
-                      "Thickness of one ring of cells over the last, "
-                      "outwards.");
+                     "Thickness of one ring of cells over the last, "
+                     "outwards.");
     prm.declare_knob("Coarsest cell size", "none", word_or("none", length),
-                      "Rings grow up to this thickness.");
+                     "Rings grow up to this thickness.");
     prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
-                      "Part of the cylinder that is modelled: half keeps the "
-                      "positive side of the axis that follows the cylinder's "
-                      "(x after z), quarter that of the other one, too. The "
-                      "cut planes are called as a box's faces, e.g. -x, -y.");
+                     "Part of the cylinder that is modeled: half keeps the "
+                     "positive side of the axis that follows the cylinder's "
+                     "(x after z), quarter that of the other one, too. The "
+                     "cut planes are called as a box's faces, e.g. -x, -y.");
   }
 
   std::string face_names() const override
@@ -50,7 +49,7 @@ public:
       faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
     return {make_cylinder(get_quantity(prm, "Radius"),
                           get_quantity(prm, "Length"), axis,
-                          get_vector(prm, "Centre"), request.cell_size, n_cuts,
+                          get_vector(prm, "Center"), request.cell_size, n_cuts,
                           grading(request)),
             std::move(faces)};
   }
@@ -63,7 +62,7 @@ public:
                        "has no effect: the zone has the cells of the body "
                        "that it is carved from; remove the entry");
     ZoneShape zone;
-    zone.centre = get_vector(prm, "Centre");
+    zone.center = get_vector(prm, "Center");
     zone.axis = axis_of(prm);
     zone.size.fill(2. * get_quantity(prm, "Radius"));
     zone.size[zone.axis] = get_quantity(prm, "Length");
@@ -92,7 +91,7 @@ private:
                        "leaves no room for rings; at most 0.9 of the radius");
     const Carving *const carving = request.carving;
     if (carving == nullptr ||
-        !carving->shape.is_coaxial(axis, get_vector(prm, "Centre")) ||
+        !carving->shape.is_coaxial(axis, get_vector(prm, "Center")) ||
         !(0.5 * carving->shape.size[(axis + 1) % 3] < 0.999 * radius))
       return grading;
     if (grading.core_radius)
