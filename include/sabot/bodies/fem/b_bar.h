@@ -54,7 +54,7 @@ private:
     PackMat F[n_packs];
   };
   /** A cell between two positions, and sums over its points. */
-  struct Moving
+  struct Moving // on the stack, while kinematics() runs
   {
     PackMat F[n_packs], l[n_packs]; // l: see midpoint_increment()
     Vec mean[8];                    // v times the mean present gradients [m^2]
@@ -81,6 +81,7 @@ private:
   double step_of_quarter_volume(const NodalState &nodes, const std::size_t e,
                                 const Moving &cell) const;
 
+  // One entry a cell; the batch holds the points of four cells.
   AlignedVector<Geometry> geometry;
   AlignedVector<Motion> motion;
   PointBatch batch;

@@ -31,6 +31,10 @@ namespace sabot
 class FemBody : public Body, public FaceView
 {
 public:
+  /** @p mesh and @p material are complete; nothing is collective. Throws
+      InputError, by the entry of the body, for erosion by a state that the
+      material does not have, for conduction without conductivity or together
+      with erosion, and for symmetry faces that are not plane. */
   FemBody(const std::string &name, const int id, HexMesh mesh,
           std::shared_ptr<const Material> material, const FemOptions &options);
 
@@ -38,6 +42,7 @@ public:
   {
     return mesh.nodes;
   }
+  /** The unit of cost: a node of one-point cells. */
   double partition_weight() const override { return 1.; }
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
@@ -45,14 +50,24 @@ public:
   // Between the kicks and drifts of the integrator, see Body.
   void impose_velocities(const double time) override;
   void accumulate_work(const double half_dt) override;
+  /** Positions and velocities of the nodes of other ranks: all that the cells
+     of this one need. Forces are never exchanged, as every rank computes all
+     cells of its nodes. */
   void update_ghosts() override;
   void compute_forces(const double time, const double dt) override;
+  /** The least of the cells' (by bounds of their highest frequencies),
+     shortened by bulk viscosity and stiffening of the material. */
   StableStep stable_step() const override;
+  /** Heat conduction where its interval is over, then erosion; only the latter
+      changes forces and surface. Collective. */
   bool update_topology(const unsigned int step, const double time) override;
 
   /** Owned cells only, so that the sum over ranks counts each once; the kinetic
       energy of nodes that lost all cells counts as eroded. */
   void add_energies(EnergyLedger &ledger) const override;
+  /** Energies and momentum of the body, the largest plastic strain and
+      temperature, what has been eroded. Collective; exact sums, the same for
+      every number of ranks. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
   bool is_held() const override;
@@ -60,7 +75,10 @@ public:
   {
     return boundary.planes();
   }
+  /** Center of every owned cell, and its effective plastic strain. */
   std::vector<MaterialSite> material_sites() const override;
+  /** Owned cells with all their nodes, so that borders between ranks are drawn
+      by one of them. */
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
 
@@ -70,6 +88,7 @@ public:
     return surface_version;
   }
 
+  // The view of its faces.
   const FaceView *faces() const override { return this; }
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;
   bool deform() const override { return true; }

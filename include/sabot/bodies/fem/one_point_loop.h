@@ -84,7 +84,8 @@ private:
   static Pack step_of_quarter_volume(const FourCells &cells);
 };
 
-/** All cache lines of the pack that comes next. */
+/** All cache lines of the pack that comes next: four cells have 1.8 kB of
+    data, which the hardware's prefetcher finds too late. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
 {
@@ -100,7 +101,9 @@ SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
   ask(motion[pack]);
 }
 
-/** sum a_a (x) B_a of nodal vectors, which are kept by component. */
+/** sum a_a (x) B_a of nodal vectors, which are kept by component in @p value
+    for the hourglass sums: F of positions, L of velocities. Rigid motion gives
+    a rotation, since sum B_a = 0. */
 template <typename Form>
 SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
                                                          const Vec *const nodal,
@@ -121,7 +124,9 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
   return sum;
 }
 
-/** Cells that lost a third of their volume in one step are judged. */
+/** Cells that lost a third of their volume in one step are judged, see
+    Hexahedra::avoid_inversion(). Out of the way of all others: one comparison
+    for four cells. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
@@ -237,6 +242,18 @@ OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
   return 0.25 / pack_max(-rate, slowest + zero);
 }
 
+/**
+ * One step of four cells:
+ *
+ *   F = sum x_a (x) B_a                      deformation gradient
+ *   l = (F - F_old) F_m^-1                   strain and spin increment
+ *   V_0 J F^-T                               from stress to forces
+ *   dt, q                                    stable step, bulk viscosity
+ *   sum h_a x_a                              hourglass modes, by the form
+ *
+ * The stress follows for a whole batch (update_points), then the forces
+ * (scatter).
+ */
 template <typename Form>
 void OnePointLoop<Form>::kinematics(const CellConstants &constants,
                                     const NodalState &nodes,

@@ -24,6 +24,8 @@ struct RigidOptions
   double cell_size = 0.; // that the mesh was asked for [m]
   std::array<double, 3> angular_velocity{{0., 0., 0.}}; // [1/s], at the start
 
+  /** The entries of the body's subsection; "Initial velocity" is read by the
+      body's builder. */
   static void declare_parameters(Parameters &prm);
   static RigidOptions parse(const Parameters &prm);
 };
@@ -44,6 +46,8 @@ struct RigidOptions
 class RigidBody : public Body, public FaceView
 {
 public:
+  /** Mass, center and tensor of inertia of the whole mesh, so that every rank
+      has the same to the last bit. Of the material only the density counts. */
   RigidBody(const std::string &name, const int id, HexMesh mesh,
             std::shared_ptr<const Material> material,
             const RigidOptions &options);
@@ -52,15 +56,20 @@ public:
   {
     return mesh.nodes;
   }
+  /** Nodes of a rigid body have contact only, no cells to compute. */
   double partition_weight() const override { return 0.2; }
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
   /** Takes up what the last kick did to the nodes, and moves them rigidly. */
   void impose_velocities(const double time) override;
+  /** Of a prescribed motion, -sum f . v dt/2 over the owned nodes [J]: what
+      keeps the body going does this work. */
   void accumulate_work(const double half_dt) override;
+  /** Nothing: every rank moves all of its nodes by the state it knows. */
   void update_ghosts() override {}
-  /** Moves the body by @p dt and clears the forces. */
+  /** Moves the body by @p dt and clears the forces, which the couplings then
+      add. */
   void compute_forces(const double time, const double dt) override;
   /** A twentieth of a radian of rotation, for the midpoint rule; contact bounds
       the step by its own. */
@@ -70,6 +79,8 @@ public:
     return false;
   }
 
+  /** Kinetic energy of the owned nodes [J], which adds up to
+      p^2/(2 m) + omega . l/2, and the work of a prescribed motion on them. */
   void add_energies(EnergyLedger &ledger) const override;
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
@@ -82,6 +93,7 @@ public:
   {
     return {};
   }
+  /** So it leads no tie and does not fold. */
   bool deform() const override { return false; }
   bool moves_node_by_node() const override { return false; }
 
