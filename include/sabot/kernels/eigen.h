@@ -9,7 +9,7 @@ namespace sabot
 {
 // Our matrices are three rows of padded vectors, for the hot loops; Eigen's are
 // for decompositions. Include this in source files only: Eigen takes a second
-// to parse.
+// to parse. Both ways copy nine numbers, which a decomposition dwarfs.
 
 /**
  * The same numbers as Eigen's matrix, m(i, j) = a(i, j).

@@ -66,12 +66,8 @@ private:
   {
     PackMat F[n_packs];
   };
-  /** A cell between two positions, and sums over its points. Zero before
-      add_points(), which is called once per pack of four points. The mean
-      expansion of the step is expansion / middle_volume, the mean gradients
-      mean / volume; shear_bound is the second sum of the bound omega^2 <=
-      8/m sum v_q (lambda tr G_mean + 2 mu lambda_max G_q). */
-  struct Moving
+  /** A cell between two positions, and sums over its points. */
+  struct Moving // on the stack, while kinematics() runs
   {
     PackMat F[n_packs], l[n_packs]; // l: see midpoint_increment()
     Vec mean[8];                    // v times the mean present gradients [m^2]
@@ -110,6 +106,7 @@ private:
   double step_of_quarter_volume(const NodalState &nodes, const std::size_t e,
                                 const Moving &cell) const;
 
+  // One entry a cell; the batch holds the points of four cells.
   AlignedVector<Geometry> geometry;
   AlignedVector<Motion> motion;
   PointBatch batch;

@@ -36,10 +36,10 @@ namespace sabot
 class FemBody : public Body, public FaceView
 {
 public:
-  /** Throws InputError, by the entry: an erosion criterion whose state
-      variable the law does not have, conduction without temperature or
-      conductivity, conduction together with erosion, symmetry faces that are
-      not a plane. */
+  /** @p mesh and @p material are complete; nothing is collective. Throws
+      InputError, by the entry of the body, for erosion by a state that the
+      material does not have, for conduction without conductivity or together
+      with erosion, and for symmetry faces that are not plane. */
   FemBody(const std::string &name, const int id, HexMesh mesh,
           std::shared_ptr<const Material> material, const FemOptions &options);
 
@@ -47,7 +47,7 @@ public:
   {
     return mesh.nodes;
   }
-  /** Cost of a node, the unit by which other bodies' are measured. */
+  /** The unit of cost: a node of one-point cells. */
   double partition_weight() const override { return 1.; }
   /** Takes the nodes of this rank and all cells around them, lumps masses
       m_a = sum rho V_0/8 in global cell order, so that they are the same on
@@ -63,25 +63,27 @@ public:
       does against the forces f on its nodes; half a step at a time, before
       and after the forces change. Local. */
   void accumulate_work(const double half_dt) override;
-  /** Positions and velocities of ghosts from their owners. Collective. */
+  /** Positions and velocities of the nodes of other ranks: all that the cells
+     of this one need. Forces are never exchanged, as every rank computes all
+     cells of its nodes. */
   void update_ghosts() override;
   /** Forces -f_internal [N] at the positions now, from zero; material
       advanced by dt [s]. Local, but may throw PhysicsError on one rank (an
       inverted cell). */
   void compute_forces(const double time, const double dt) override;
-  /** Least of this rank's cells, as of the last forces; the caller takes the
-      minimum over ranks. */
+  /** The least of the cells' (by bounds of their highest frequencies),
+     shortened by bulk viscosity and stiffening of the material. */
   StableStep stable_step() const override;
-  /** Between steps: conducts heat where the interval has passed, then
-      erodes. True where cells went, on all ranks alike. Collective. */
+  /** Heat conduction where its interval is over, then erosion; only the latter
+      changes forces and surface. Collective. */
   bool update_topology(const unsigned int step, const double time) override;
 
   /** Owned cells only, so that the sum over ranks counts each once; the kinetic
       energy of nodes that lost all cells counts as eroded. */
   void add_energies(EnergyLedger &ledger) const override;
-  /** Beside those of all bodies: hourglass energy [J], largest plastic
-      strain and temperature [K] (means of a cell), what eroded. Collective,
-      the same on all ranks. */
+  /** Energies and momentum of the body, the largest plastic strain and
+      temperature, what has been eroded. Collective; exact sums, the same for
+      every number of ranks. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
   /** By any clamped, driven or symmetry face, the rest of the scene aside. */
@@ -90,11 +92,10 @@ public:
   {
     return boundary.planes();
   }
-  /** One per owned cell: mean of the corners' initial positions [m] and
-      effective plastic strain, 0 where the law has none. */
+  /** Center of every owned cell, and its effective plastic strain. */
   std::vector<MaterialSite> material_sites() const override;
-  /** All local nodes as points, owned cells only; displacement and velocity
-      at nodes, means over the points in cells. */
+  /** Owned cells with all their nodes, so that borders between ranks are drawn
+      by one of them. */
   OutputMesh output_mesh() const override;
   /** Eroded cells first: a reader must take them out before it fills arrays.
       External work is part of it. */
@@ -109,6 +110,7 @@ public:
     return surface_version;
   }
 
+  // The view of its faces.
   const FaceView *faces() const override { return this; }
   /** Local nodes in VTK order of the cell behind each face of
       contact_surface(); zeros where this rank does not have it. */

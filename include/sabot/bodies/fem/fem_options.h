@@ -29,8 +29,7 @@ struct ErosionLimit
  */
 struct FemOptions
 {
-  /** Names of the registries, in the scene's words; a wrong one is refused
-      where the body is made. */
+  // Names of choices; the body's constructor looks them up.
   std::string integration = "one point"; // of Registry<Hexahedra>
   std::string hourglass = "viscous";     // of Registry<OnePoint>
   /** Which rotation the stress follows: by the spin of the velocity
@@ -62,15 +61,15 @@ struct FemOptions
       step by 0.25/|tr L|. */
   enum class Inversion
   {
-    stop,
-    erode,
+    stop,  // with the name and place of the cell
+    erode, // it rests as it was until the end of the step
     shrink // no step may take more than a quarter of a cell's volume
   };
   Inversion inversion = Inversion::stop;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   double cell_size = 0.; // that the mesh was asked for [m]
-  /** Where faces share nodes, symmetry gives way to driven, driven to
-      clamped. */
+  /** Faces held fixed, faces in planes of symmetry, faces that are driven.
+     Where they share nodes the first of clamped, driven, symmetric counts. */
   std::vector<unsigned int> clamped_boundary_ids, symmetry_boundary_ids,
       driven_boundary_ids;
   /** Of the nodes of driven faces; only the held components count. */

@@ -54,27 +54,21 @@ public:
   }
 
 protected:
-  /** Four cells as they are now; nodal sums over the corners in the space of
-      the base vectors h_m are [component][mode]. Present quantities belong
-      to the positions x at the end of the step, B_a and h_m to the reference
-      configuration. L and velocity are set only where a form or the option
-      shrink asks for them. */
+  /** Four cells as they are now; sums over the corners with the base vectors
+      h_m are [component][mode]. Set step by step by kinematics(). */
   struct FourCells
   {
+    explicit FourCells(const Geometry &g) : g(g) {}
     const Geometry &g;
     /** F = sum x_a (x) B_a, the mean of the deformation gradient over the
         cell (Flanagan & Belytschko 1981), from the undeformed state. */
     PackMat F, inverse; // F^-1
     PackMat S;          // sum B_a (x) B_a [1/m^2]
-    PackMat L;          // sum v_a (x) B_a [1/s]
+    PackMat L;          // sum v_a (x) B_a [1/s], where velocities are needed
     Pack J, J_inverse;
-    Pack J_root; // J^(1/3)
-    /** Four modes of the positions, by the vectors h of Flanagan &
-        Belytschko; what of them a linear field explains is taken off by the
-        form. */
-    Pack modal[3][4]; // sum h_a x_a [m]
-    /** Of the corners, [component][corner] [m/s]. */
-    Pack velocity[3][8];
+    Pack J_root;       // J^(1/3)
+    Pack modal[3][4];  // sum h_a x_a [m]
+    Pack corner[3][8]; // x_a [m], then v_a [m/s] where they are needed
   };
 
 private:
@@ -99,9 +93,8 @@ private:
   static Pack step_of_quarter_volume(const FourCells &cells);
 };
 
-/** All cache lines of the pack that comes next. Geometry and motion of a
-    pack are read once per step from main memory, in order; asking one pack
-    ahead hides their latency behind the arithmetic of this one. */
+/** All cache lines of the pack that comes next: four cells have 1.8 kB of
+    data, which the hardware's prefetcher finds too late. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
 {
@@ -117,10 +110,9 @@ SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
   ask(motion[pack]);
 }
 
-/** sum a_a (x) B_a of nodal vectors, which are kept by component. Of
-    positions it is F, of velocities L with v = L X [1/s] in the reference
-    frame. The corner values stay for the hourglass sums,
-    value[component][corner], so that nodes are gathered once. */
+/** sum a_a (x) B_a of nodal vectors, which are kept by component in @p value
+    for the hourglass sums: F of positions, L of velocities. Rigid motion gives
+    a rotation, since sum B_a = 0. */
 template <typename Form>
 SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
                                                          const Vec *const nodal,
@@ -141,11 +133,9 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
   return sum;
 }
 
-/** Cells that lost a third of their volume in one step are judged. Written
-    as a negation so that a volume ratio that is no number is judged, too.
-    Where the judgment is that the cell rests, F and J go back to those of
-    the last step: no strain, no work, until erosion takes the cell out at
-    the end of the step. Lanes without a cell are not judged. */
+/** Cells that lost a third of their volume in one step are judged, see
+    Hexahedra::avoid_inversion(). Out of the way of all others: one comparison
+    for four cells. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
@@ -276,11 +266,18 @@ OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
   return 0.25 / pack_max(-rate, slowest + zero);
 }
 
-/** The result of a pack: strain, spin, J, half volume, viscous pressure and
-    step in the batch; V_0 J F^-T, modal forces and their part of P in
-    pending; F and what the form keeps of its modes in motion. The stress of
-    this step is not known yet: forces of the stress come in scatter(), after
-    the law. */
+/**
+ * One step of four cells:
+ *
+ *   F = sum x_a (x) B_a                      deformation gradient
+ *   l = (F - F_old) F_m^-1                   strain and spin increment
+ *   V_0 J F^-T                               from stress to forces
+ *   dt, q                                    stable step, bulk viscosity
+ *   sum h_a x_a                              hourglass modes, by the form
+ *
+ * The stress follows for a whole batch (update_points), then the forces
+ * (scatter).
+ */
 template <typename Form>
 void OnePointLoop<Form>::kinematics(const CellConstants &constants,
                                     const NodalState &nodes,
@@ -290,11 +287,10 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
   Motion &kept = motion[pack];
   Pending &out = pending[pack % packs_per_batch];
   const std::size_t k = pack % packs_per_batch * n_lanes;
-  FourCells cells{geometry[pack], {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  FourCells cells(geometry[pack]);
   ask_for(pack + 1);
 
-  Pack x[3][8];
-  cells.F = nodal_gradient(cells.g, nodes.position.data(), x);
+  cells.F = nodal_gradient(cells.g, nodes.position.data(), cells.corner);
   const Pack J_old = determinant(kept.F);
   cells.J = determinant(cells.F);
   rest_what_inverts(nodes, pack, J_old, cells);
@@ -309,9 +305,9 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
 
   cells.J_root = pack_cbrt(cells.J);
   for (int i = 0; i < 3; ++i)
-    hourglass_sums(x[i], cells.modal[i]);
+    hourglass_sums(cells.corner[i], cells.modal[i]);
   if (Form::needs_velocities || shrinks)
-    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.velocity);
+    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.corner);
   if (shrinks)
     step = pack_min(step, step_of_quarter_volume(cells));
   static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, kept, out);

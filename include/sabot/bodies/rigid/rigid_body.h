@@ -27,6 +27,8 @@ struct RigidOptions
   double cell_size = 0.; // that the mesh was asked for [m]
   std::array<double, 3> angular_velocity{{0., 0., 0.}}; // [1/s], at the start
 
+  /** The entries of the body's subsection; "Initial velocity" is read by the
+      body's builder. */
   static void declare_parameters(Parameters &prm);
   static RigidOptions parse(const Parameters &prm);
 };
@@ -51,9 +53,8 @@ struct RigidOptions
 class RigidBody : public Body, public FaceView
 {
 public:
-  /** m_a = sum rho V_0/8 over the cells around a node; I = sum m_a (|r|^2 1
-      - r (x) r) about the center. Not collective: every rank has the whole
-      mesh here. */
+  /** Mass, center and tensor of inertia of the whole mesh, so that every rank
+      has the same to the last bit. Of the material only the density counts. */
   RigidBody(const std::string &name, const int id, HexMesh mesh,
             std::shared_ptr<const Material> material,
             const RigidOptions &options);
@@ -62,8 +63,7 @@ public:
   {
     return mesh.nodes;
   }
-  /** Nodes have no cells to compute, only surface: a fifth of one of finite
-      elements. */
+  /** Nodes of a rigid body have contact only, no cells to compute. */
   double partition_weight() const override { return 0.2; }
   /** Arms r of the local nodes in the initial frame, faces whose nodes are
       all here; the mesh is released. */
@@ -75,12 +75,13 @@ public:
       has been added to the rigid velocity since the last call; a prescribed
       body ignores it. Collective. */
   void impose_velocities(const double time) override;
-  /** Of a prescribed body: -dt/2 sum f . v [J], external. Local. */
+  /** Of a prescribed motion, -sum f . v dt/2 over the owned nodes [J]: what
+      keeps the body going does this work. */
   void accumulate_work(const double half_dt) override;
+  /** Nothing: every rank moves all of its nodes by the state it knows. */
   void update_ghosts() override {}
-  /** Moves the body by @p dt and clears the forces. c and Q by the formulas
-      above; every local node, ghosts included, is placed at c + Q r, which
-      is why update_ghosts() has nothing to do. Local. */
+  /** Moves the body by @p dt and clears the forces, which the couplings then
+      add. */
   void compute_forces(const double time, const double dt) override;
   /** A twentieth of a radian of rotation, for the midpoint rule; contact
       bounds the step by its own. [s]; the largest double for a body that
@@ -91,6 +92,8 @@ public:
     return false;
   }
 
+  /** Kinetic energy of the owned nodes [J], which adds up to
+      p^2/(2 m) + omega . l/2, and the work of a prescribed motion on them. */
   void add_energies(EnergyLedger &ledger) const override;
   /** Beside those of the nodes the angular velocity [1/s] in the fixed
       frame. Collective. */
@@ -107,6 +110,7 @@ public:
   {
     return {};
   }
+  /** So it leads no tie and does not fold. */
   bool deform() const override { return false; }
   bool moves_node_by_node() const override { return false; }
 
