@@ -46,7 +46,7 @@ SpgOptions with(const std::string &s)
   return o;
 }
 
-void elastic_unstabilised(benchmark::State &state)
+void elastic_unstabilized(benchmark::State &state)
 {
   step(state, with("none"), 10., false);
 }
@@ -54,7 +54,7 @@ void elastic_bond_residual(benchmark::State &state)
 {
   step(state, SpgOptions(), 10., false);
 }
-void johnson_cook_unstabilised(benchmark::State &state)
+void johnson_cook_unstabilized(benchmark::State &state)
 {
   step(state, with("none"), 300., true);
 }
@@ -78,9 +78,9 @@ void convex_second_gradient(benchmark::State &state)
   o.normalized_support = 1.5;
   step(state, o, 300., true);
 }
-BENCHMARK(elastic_unstabilised)->Arg(22);
+BENCHMARK(elastic_unstabilized)->Arg(22);
 BENCHMARK(elastic_bond_residual)->Arg(22);
-BENCHMARK(johnson_cook_unstabilised)->Arg(22);
+BENCHMARK(johnson_cook_unstabilized)->Arg(22);
 BENCHMARK(johnson_cook_bond_residual)->Arg(22)->Arg(47)->Arg(100);
 BENCHMARK(convex_bond_residual)->Arg(22);
 BENCHMARK(convex_second_gradient)->Arg(22);

@@ -8,7 +8,7 @@ figures are processor time but for those of two ranks. Each round runs every
 program once, so that all see the same machine; medians of the rounds count.
 
 --floor  plain loops to compare with, called as PROGRAM NX NY NZ STEPS, that
-         print "... with stabilisation N | ... | hex 1-pt N ns ..."
+         print "... with stabilization N | ... | hex 1-pt N ns ..."
 --plate  a run of the plate (its result.json) for the shares of the phases;
          none: spacing-1.0mm.prm is run to 30 us
 --large  also 10^6 particles (3 GB)
@@ -66,7 +66,7 @@ def benchmark(program, pattern):
 
 def floor(program, edge, steps):
     text = output_of([program] + [str(edge)] * 3 + [str(steps)])
-    return {"floor spg": float(re.search(r"with stabilisation (\d+)",
+    return {"floor spg": float(re.search(r"with stabilization (\d+)",
                                          text).group(1)),
             "floor fem": float(re.search(r"hex 1-pt (\d+)", text).group(1))}
 
@@ -138,8 +138,8 @@ def steps(arguments):
               "johnson_cook_bond_residual/47"),
              ("SPG, Johnson-Cook, bond residual, 10^6", "-",
               "johnson_cook_bond_residual/100"),
-             ("SPG, Johnson-Cook, no stabilisation, 10^4", "-",
-              "johnson_cook_unstabilised/22"),
+             ("SPG, Johnson-Cook, no stabilization, 10^4", "-",
+              "johnson_cook_unstabilized/22"),
              ("FEM, Johnson-Cook, one point, viscous, 10^4", "floor fem",
               "johnson_cook_viscous/22"),
              ("FEM, Johnson-Cook, one point, viscous, 10^5",

@@ -312,7 +312,7 @@ void add_picture(CLI::App &app, PictureArguments &picture, Action &action)
   command.add_option("-o,--output", picture.file,
                      "Picture (default: section.png in the folder)");
   command.add_option("--field", picture.field,
-                     "Field that colours the bodies (default: effective "
+                     "Field that colors the bodies (default: effective "
                      "plastic strain, or velocity where nothing can yield)");
   command.add_option("--time", picture.times,
                      "Times, separated by commas: \"20 us, 0.1 ms\" (default: "
@@ -324,7 +324,7 @@ void add_picture(CLI::App &app, PictureArguments &picture, Action &action)
   command.add_option("--at", picture.position,
                      "Position of the plane along it: \"0 mm\"");
   command.add_option("--range", picture.range,
-                     "Limits of the colours: \"0, 1\" (SI)");
+                     "Limits of the colors: \"0, 1\" (SI)");
   command.add_option("--window", picture.window,
                      "Part to show, to the right and up: \"-30 mm, 30 mm, -40 "
                      "mm, 20 mm\"");

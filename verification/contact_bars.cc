@@ -27,7 +27,7 @@ std::string name_of(const Pairing pairing)
 
 void add_box(World &world, const bool particles,
              const std::array<double, 3> &size,
-             const std::array<double, 3> &centre,
+             const std::array<double, 3> &center,
              const std::array<double, 3> &velocity, const double nu,
              const double h = 1e-3)
 {
@@ -38,14 +38,14 @@ void add_box(World &world, const bool particles,
     SpgOptions options;
     options.initial_velocity = velocity;
     world.bodies.push_back(std::make_unique<SpgBody>(
-        name, id, make_box_cloud(centre, size, h), elastic(nu), options));
+        name, id, make_box_cloud(center, size, h), elastic(nu), options));
     return;
   }
   FemOptions options;
   options.initial_velocity = velocity;
   BoxSpecification box;
   box.size = size;
-  box.centre = centre;
+  box.center = center;
   box.cell_size = h;
   world.bodies.push_back(std::make_unique<FemBody>(
       name, id, make_graded_box(box), elastic(nu), options));

@@ -13,7 +13,7 @@ constexpr double spacing = 1e-3, speed = 200.;
 
 std::unique_ptr<SpgBody> block(const std::string &name, const int id,
                                const std::array<double, 3> &size,
-                               const std::array<double, 3> &centre,
+                               const std::array<double, 3> &center,
                                const double velocity, const bool crumbles)
 {
   SpgOptions options;
@@ -22,7 +22,7 @@ std::unique_ptr<SpgBody> block(const std::string &name, const int id,
     options.set_critical_plastic_strain(0.1);
   const auto metal = hardening_aluminum();
   return std::make_unique<SpgBody>(
-      name, id, make_box_cloud(centre, size, spacing), metal, options);
+      name, id, make_box_cloud(center, size, spacing), metal, options);
 }
 
 /** Break what can break: strained, and shaken so that bonds are stretched. */

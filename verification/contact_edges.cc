@@ -10,11 +10,11 @@ namespace sabot
 namespace
 {
 HexMesh brick(const std::array<double, 3> &size,
-              const std::array<double, 3> &centre, const double h)
+              const std::array<double, 3> &center, const double h)
 {
   BoxSpecification b;
   b.size = size;
-  b.centre = centre;
+  b.center = center;
   b.cell_size = h;
   return make_graded_box(b);
 }
@@ -30,14 +30,14 @@ void add_fem(World &world, const HexMesh &mesh,
 }
 
 void add_spg(World &world, const std::array<double, 3> &size,
-             const std::array<double, 3> &centre, const double h,
+             const std::array<double, 3> &center, const double h,
              const std::array<double, 3> &velocity, const double nu = 0.33)
 {
   SpgOptions options;
   options.initial_velocity = velocity;
   world.bodies.push_back(std::make_unique<SpgBody>(
       "spg" + std::to_string(world.bodies.size()), world.bodies.size(),
-      make_box_cloud(centre, size, h), elastic(nu), options));
+      make_box_cloud(center, size, h), elastic(nu), options));
 }
 
 /** Bodies 0 and 1 touch; only hexahedra have faces. */

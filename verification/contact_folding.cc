@@ -118,7 +118,7 @@ std::vector<Check> thin_plate()
     World world;
     BoxSpecification box;
     box.size = {{8e-3, 8e-3, 1e-3}};
-    box.centre = {{0., 0., 0.}};
+    box.center = {{0., 0., 0.}};
     box.cell_size = 1e-3;
     world.bodies.push_back(std::make_unique<FemBody>(
         "plate", 0, make_graded_box(box), elastic(), FemOptions()));

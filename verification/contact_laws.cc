@@ -17,11 +17,11 @@ namespace
 {
 
 HexMesh brick(const std::array<double, 3> &size,
-              const std::array<double, 3> &centre, const double h)
+              const std::array<double, 3> &center, const double h)
 {
   BoxSpecification b;
   b.size = size;
-  b.centre = centre;
+  b.center = center;
   b.cell_size = h;
   return make_graded_box(b);
 }

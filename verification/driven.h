@@ -61,7 +61,7 @@ inline HexMesh make_bar(const double start, const int n, const double h)
 {
   BoxSpecification box;
   box.size = {{n * h, h, h}};
-  box.centre = {{start + 0.5 * n * h, 0., 0.}};
+  box.center = {{start + 0.5 * n * h, 0., 0.}};
   box.cell_size = h;
   return make_graded_box(box);
 }

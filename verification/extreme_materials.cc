@@ -117,7 +117,7 @@ std::vector<Check> melt()
     shear_hot(checks, "particles ", temperature, 1e5, 1., cloud);
   }
   shear_hot(checks, "cell ", 294., 1e5, 30., cell);
-  // Particles that were neighbours must stay in each other's kernels.
+  // Particles that were neighbors must stay in each other's kernels.
   shear_hot(checks, "particles ", 700., 1e5, 5., cloud);
   return checks;
 }
@@ -142,7 +142,7 @@ void stiff_and_soft(std::vector<Check> &checks, const bool soft_particles)
                cloud = (soft_particles ? n_soft : n_stiff) * h;
   BoxSpecification box;
   box.size = {{cells, h, h}};
-  box.centre = {{-0.5 * cells, 0., 0.}};
+  box.center = {{-0.5 * cells, 0., 0.}};
   box.cell_size = h;
   world.bodies.push_back(
       std::make_unique<FemBody>("cells", 0, make_graded_box(box),
@@ -210,7 +210,7 @@ std::vector<Check> aspect_ratio()
     // Cells of 1 mm along x, 10 um across.
     BoxSpecification box;
     box.size = {{40. * thin, 2. * thin, 2. * thin}};
-    box.centre = {{20. * thin, 0., 0.}};
+    box.center = {{20. * thin, 0., 0.}};
     box.cell_size = thin;
     HexMesh mesh = make_graded_box(box);
     for (auto &p : mesh.nodes)
@@ -286,7 +286,7 @@ std::vector<Check> spacing_jump()
   World world;
   BoxSpecification box;
   box.size = {{6e-3, h, h}};
-  box.centre = {{-3e-3, 0., 0.}};
+  box.center = {{-3e-3, 0., 0.}};
   box.cell_size = h;
   FemOptions fem;
   fem.symmetry_boundary_ids = {2, 3, 4, 5};

@@ -209,7 +209,7 @@ void add_flight(std::vector<Check> &checks, const std::string &who,
   };
   const double own = own_energy();
   const auto before = world.momenta();
-  // Angular momentum about the moving centre of mass.
+  // Angular momentum about the moving center of mass.
   const auto spin = [&]
   {
     Vec c{}, l{};
@@ -243,7 +243,7 @@ void add_flight(std::vector<Check> &checks, const std::string &who,
         std::max(change, std::abs(after[d] - before[d]) / std::abs(before[0]));
   checks.push_back({who + "momentum, relative change", 0., change, 1e-10, "1",
                     "conservation, 1e6 steps"});
-  checks.push_back({who + "spin about the centre, relative change", 0.,
+  checks.push_back({who + "spin about the center, relative change", 0.,
                     norm(spin() - l) / norm(l), 1e-7, "1",
                     "conservation, 1e6 steps"});
   checks.push_back({who + "own energy, last over first 1e4 steps", 1.,

@@ -33,12 +33,12 @@ Outcome strike(const double speed, const double end)
   World world;
   BoxSpecification box;
   box.size = {{60e-3, 60e-3, thickness}};
-  box.centre = {{0., 0., -0.5 * thickness}};
+  box.center = {{0., 0., -0.5 * thickness}};
   box.cell_size = h;
   box.coarsest_cell_size = 2. * h;
   box.growth_ratio = 1.3;
   box.has_zone = true;
-  box.zone_centre = box.centre;
+  box.zone_center = box.center;
   box.zone_size = {{30e-3, 30e-3, thickness}};
   FemOptions plate;
   plate.clamped_boundary_ids = {0, 1};
@@ -48,7 +48,7 @@ Outcome strike(const double speed, const double end)
   SpgOptions core;
   core.set_critical_plastic_strain(0.4);
   world.bodies.push_back(std::make_unique<SpgBody>(
-      "core", 1, make_box_cloud(box.centre, box.zone_size, h), target, core));
+      "core", 1, make_box_cloud(box.center, box.zone_size, h), target, core));
   FemOptions projectile;
   projectile.initial_velocity = {{0., 0., -speed}};
   projectile.inversion = FemOptions::Inversion::erode;

@@ -12,7 +12,7 @@ namespace sabot
 {
 namespace
 {
-/** What a metre, a second and a kilogram are in the units of the numbers. */
+/** What a meter, a second and a kilogram are in the units of the numbers. */
 struct Units
 {
   double length = 1., time = 1., mass = 1.;
@@ -24,7 +24,7 @@ struct Units
 
 struct State
 {
-  std::vector<Vec> position, velocity; // in metres and seconds
+  std::vector<Vec> position, velocity; // in meters and seconds
   double energy;                       // [J]
   double plastic_strain, broken, temperature;
   unsigned int steps;
@@ -65,7 +65,7 @@ State run(const Units &u)
       spg));
   BoxSpecification block;
   block.size = {{3. * mm, 3. * mm, 3. * mm}};
-  block.centre = {{0.25 * mm, 0.125 * mm, 3.0625 * mm}};
+  block.center = {{0.25 * mm, 0.125 * mm, 3.0625 * mm}};
   block.cell_size = mm;
   FemOptions projectile;
   projectile.initial_velocity = {{0., 0., -600. * u.velocity()}};
@@ -130,7 +130,7 @@ std::vector<Check> units()
     Units units;
   };
   for (const Case &c :
-       {Case{"millimetres", {1e3, 1., 1.}}, Case{"kilometres", {1e-3, 1., 1.}},
+       {Case{"millimeters", {1e3, 1., 1.}}, Case{"kilometers", {1e-3, 1., 1.}},
         Case{"milliseconds", {1., 1e3, 1.}},
         Case{"kiloseconds", {1., 1e-3, 1.}}, Case{"grams", {1., 1., 1e3}},
         Case{"tonnes", {1., 1., 1e-3}}, Case{"mm, ms, g", {1e3, 1e3, 1e3}},

@@ -9,7 +9,7 @@ namespace sabot
 {
 namespace
 {
-/** Positions by reference position, on a grid of a nanometre. */
+/** Positions by reference position, on a grid of a nanometer. */
 std::map<std::array<long, 3>, Vec> positions(const Body &body)
 {
   std::map<std::array<long, 3>, Vec> result;
@@ -92,13 +92,13 @@ void struck_plate(World &world, const bool quarter)
   {
     BoxSpecification b;
     b.size = size;
-    b.centre = {{0., 0., z}};
+    b.center = {{0., 0., z}};
     b.cell_size = h;
     if (quarter)
       for (int d = 0; d < 2; ++d)
       {
         b.size[d] *= 0.5;
-        b.centre[d] = 0.5 * b.size[d];
+        b.center[d] = 0.5 * b.size[d];
       }
     return make_graded_box(b);
   };

@@ -33,7 +33,7 @@ Bar taylor(const double h, const bool by_contact, const double step_factor)
   {
     BoxSpecification box;
     box.size = {{12e-3, 12e-3, 1e-3}};
-    box.centre = {{4e-3, 4e-3, -0.5e-3}};
+    box.center = {{4e-3, 4e-3, -0.5e-3}};
     box.cell_size = 1e-3;
     RigidOptions wall;
     wall.is_prescribed = true;

@@ -30,7 +30,7 @@ void add_slabs(World &world, const std::shared_ptr<const Material> &material,
   world.stepper.initialize();
 }
 
-/** Stress along x, averaged over cells whose reference centre lies between
+/** Stress along x, averaged over cells whose reference center lies between
     @p low and @p high. */
 double axial_stress(const FemBody &body, const double start, const double h,
                     const double low, const double high)

@@ -53,7 +53,7 @@ struct RegisterProblem
 
 /**
  * Run problems and print a line per check.
- * @param names of problems or labels; empty: all that are labelled quick.
+ * @param names of problems or labels; empty: all that are labeled quick.
  * @param json_file when not empty, the checks are written there as well.
  * @return whether all checks passed. Throws InputError for an unknown name.
  */

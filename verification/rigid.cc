@@ -14,7 +14,7 @@ HexMesh brick(const std::array<double, 3> &size, const double h,
 {
   BoxSpecification b;
   b.size = size;
-  b.centre = {{0., 0., height}};
+  b.center = {{0., 0., height}};
   b.cell_size = h;
   return make_graded_box(b);
 }
@@ -34,7 +34,7 @@ std::vector<Check> spinning_brick()
   const double energy = world.total_energy();
   const auto before = world.momenta();
   const NodalState &n = world.bodies[0]->nodes();
-  const auto spin_momentum = [&] // about the centre that the nodes have now
+  const auto spin_momentum = [&] // about the center that the nodes have now
   {
     Vec c{}, l{};
     for (std::size_t i = 0; i < n.n_owned; ++i)
@@ -89,7 +89,7 @@ std::vector<Check> spinning_brick()
            1e-12, "1", "trapezoidal rule, 4 and 2 cells"}};
 }
 
-/** A rigid ball meets an elastic block off its centre: momenta and energy. */
+/** A rigid ball meets an elastic block off its center: momenta and energy. */
 std::vector<Check> impact()
 {
   World world;

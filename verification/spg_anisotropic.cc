@@ -1,4 +1,4 @@
-// Whether the stabilisation sees the sawtooth of a cloud whose spacing differs
+// Whether the stabilization sees the sawtooth of a cloud whose spacing differs
 // by axis, as that of a cloud that has been flattened does.
 #include "verification/problem.h"
 #include "verification/world.h"

@@ -38,7 +38,7 @@ Errors move(SpgBody &body, const Mat &A, const Mat &wanted_stress,
   return errors;
 }
 
-/** A linear field, a rotation, the mass and the neighbours of a cloud. */
+/** A linear field, a rotation, the mass and the neighbors of a cloud. */
 void add_checks(std::vector<Check> &checks, const std::string &name,
                 const ParticleCloud &cloud, const double exact_volume,
                 const SpgOptions &options = SpgOptions())
@@ -95,10 +95,10 @@ void add_checks(std::vector<Check> &checks, const std::string &name,
                     rotation.stress, 1e-9, "1", "objectivity"});
   checks.push_back({name + ": volume of the particles over the exact one", 1.,
                     volume / exact_volume, 1e-12, "1", "exact mass"});
-  checks.push_back({name + ": mean number of neighbours", 32.5, mean_bonds, 0.,
+  checks.push_back({name + ": mean number of neighbors", 32.5, mean_bonds, 0.,
                     "1", "what a ball of two spacings holds",
                     Check::Kind::at_most});
-  checks.push_back({name + ": least number of neighbours", 7., least_bonds, 0.,
+  checks.push_back({name + ": least number of neighbors", 7., least_bonds, 0.,
                     "1", "the corner of a cubic lattice",
                     Check::Kind::at_least});
   checks.push_back({name + ": particles that lack a direction", 0., n_weak, 0.,
@@ -167,7 +167,7 @@ std::vector<Check> clouds()
 
 const RegisterProblem registered(
     {"spg-clouds",
-     "linear field, rotation, mass and neighbours of particles on meshes",
+     "linear field, rotation, mass and neighbors of particles on meshes",
      "quick", clouds});
 } // namespace
 } // namespace sabot

@@ -374,7 +374,7 @@ std::vector<Check> weak_particles()
 const RegisterProblem a({"spg-failure-criteria",
                          "level and irreversibility of the three criteria",
                          "quick", criteria}),
-    b({"spg-no-healing", "failed bonds and the neighbour policies", "quick",
+    b({"spg-no-healing", "failed bonds and the neighbor policies", "quick",
        no_healing}),
     c({"spg-weak-particles", "what particles beside a crack carry", "quick",
        weak_particles});

@@ -13,7 +13,7 @@ namespace
 constexpr double overlap = 1. - 0.55 / 12.;
 
 /** Mean shear stress over the middle of a perfectly plastic block whose ends
-    move apart along x, and the part of the work that the stabilisation took. */
+    move apart along x, and the part of the work that the stabilization took. */
 std::array<double, 2> shear(const double h)
 {
   const double Lx = 12e-3, Ly = 3e-3, Lz = 6e-3, v = 30., grip = 1.01e-3;
@@ -49,8 +49,8 @@ std::array<double, 2> shear(const double h)
     time += dt;
   }
   const double stress = impulse / time / (Lx * Ly);
-  return {{stress, measure(body, "stabilisation energy") /
-                       (measure(body, "stabilisation energy") +
+  return {{stress, measure(body, "stabilization energy") /
+                       (measure(body, "stabilization energy") +
                         body.measure().internal_energy)}};
 }
 
@@ -77,7 +77,7 @@ std::vector<Check> spg_limit_load()
           {name, 1., over, 0., "1", source, Check::Kind::reported});
     else
       checks.push_back({name, 1., over, 0.03, "1", source});
-    std::snprintf(name, sizeof(name), "%g spacings: stabilisation's work",
+    std::snprintf(name, sizeof(name), "%g spacings: stabilization's work",
                   6e-3 / h);
     checks.push_back({name, 0., part, 0., "1", "", Check::Kind::reported});
   }

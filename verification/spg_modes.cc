@@ -233,9 +233,9 @@ std::vector<Check> spg_incompressible()
 
 const RegisterProblem
     quick({"spg-modes-default",
-           "spectrum of a free block, default and unstabilised", "quick",
+           "spectrum of a free block, default and unstabilized", "quick",
            spg_modes_default}),
-    all({"spg-modes", "spectrum of a free block, all stabilisations", "long",
+    all({"spg-modes", "spectrum of a free block, all stabilizations", "long",
          spg_modes}),
     locking({"spg-incompressible", "frequencies of a block at nu 0.4999",
              "long", spg_incompressible});

@@ -119,7 +119,7 @@ std::vector<Check> spg_simple_shear()
 
 std::vector<Check> spg_large_strain()
 {
-  // Neighbours and conditioning survive large uniform deformations: F stays
+  // Neighbors and conditioning survive large uniform deformations: F stays
   // exact, no particle counts as weak.
   std::vector<Check> checks;
   struct Case

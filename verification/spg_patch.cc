@@ -7,7 +7,7 @@ namespace sabot
 namespace
 {
 /** A linear displacement on a perturbed cloud: uniform stress, no force inside,
-    for any approximation and stabilisation. */
+    for any approximation and stabilization. */
 std::vector<Check> spg_patch()
 {
   World world;

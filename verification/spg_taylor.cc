@@ -44,7 +44,7 @@ Bar strike(const double h, const bool by_contact, const double step_factor)
     // Reaches beyond the planes of symmetry, so that no node is near its rim.
     BoxSpecification wall;
     wall.size = {{24e-3, 24e-3, 2e-3}};
-    wall.centre = {{8e-3, 8e-3, -1e-3}};
+    wall.center = {{8e-3, 8e-3, -1e-3}};
     wall.cell_size = 1e-3;
     RigidOptions fixed;
     fixed.is_prescribed = true;
@@ -78,7 +78,7 @@ Bar strike(const double h, const bool by_contact, const double step_factor)
   }
   result.length = high - low;
   result.plastic_strain = measure(bar, "plastic strain max");
-  result.stabilization_share = measure(bar, "stabilisation energy") / before;
+  result.stabilization_share = measure(bar, "stabilization energy") / before;
   if (by_contact)
     result.penetration = world.couplings[0]->measure()[0].value;
   result.n_particles = double(n.n_owned);
@@ -116,7 +116,7 @@ std::vector<Check> taylor()
     check("length", 1e3 * bar.length, 21.42);
     check("foot radius", 1e3 * bar.foot_radius, 7.22);
     report("largest plastic strain", bar.plastic_strain, 3., "1");
-    report("stabilisation energy over the initial one", bar.stabilization_share,
+    report("stabilization energy over the initial one", bar.stabilization_share,
            0., "1");
     if (by_contact)
       report("deepest penetration over spacing", bar.penetration, 0., "1");

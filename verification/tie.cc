@@ -64,7 +64,7 @@ Crossing cross(const int ratio, const int n_coarse, const bool from_particles)
   const double cells = from_particles ? behind : before,
                cloud = from_particles ? before : behind;
   box.size = {{cells, coarse, coarse}};
-  box.centre = {{-0.5 * cells, 0., 0.}};
+  box.center = {{-0.5 * cells, 0., 0.}};
   FemOptions fem;
   fem.bulk_viscosity_linear = fem.bulk_viscosity_quadratic = 0.;
   fem.symmetry_boundary_ids = {2, 3, 4, 5};

@@ -5,13 +5,14 @@ namespace sabot
 {
 const std::vector<std::pair<std::string, std::string>> &entry_aliases()
 {
+  // The first versions spelled as the British do.
   static const std::vector<std::pair<std::string, std::string>> aliases = {
-      {"Center", "Centre"},
-      {"Neighbor policy", "Neighbour policy"},
-      {"Normalized support size", "Normalised support size"},
-      {"Refined zone center", "Refined zone centre"},
-      {"Stabilization", "Stabilisation"},
-      {"Stabilization coefficient", "Stabilisation coefficient"}};
+      {"Centre", "Center"},
+      {"Neighbour policy", "Neighbor policy"},
+      {"Normalised support size", "Normalized support size"},
+      {"Refined zone centre", "Refined zone center"},
+      {"Stabilisation", "Stabilization"},
+      {"Stabilisation coefficient", "Stabilization coefficient"}};
   return aliases;
 }
 

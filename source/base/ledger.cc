@@ -12,7 +12,7 @@ const std::array<EnergyTerm, 11> energy_terms = {{
      "Work of the stresses, trapezoidal in time: elastic energy, plastic work "
      "and bulk viscosity.",
      &EnergyLedger::internal},
-    {"stabilisation", EnergyTerm::Role::part,
+    {"stabilization", EnergyTerm::Role::part,
      "Work of the forces that stabilize particles.",
      &EnergyLedger::stabilization},
     {"hourglass", EnergyTerm::Role::part,

@@ -2,11 +2,13 @@
 // files, that has to know it.
 #include "sabot/base/parameters.h"
 
+#include "sabot/base/declared_tree.h"
 #include "sabot/base/quantity.h"
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <sstream>
+#include <nlohmann/json.hpp>
+
 #include <stdexcept>
 
 namespace sabot
@@ -195,30 +197,11 @@ bool Parameters::is_declared(const std::string &name) const
 
 std::vector<std::string> Parameters::entry_names() const
 {
-  // Without subsections there are lines "set name = value" only.
-  std::stringstream lines;
-  prm->print_parameters(lines,
-                        dealii::ParameterHandler::ShortText |
-                            dealii::ParameterHandler::KeepDeclarationOrder);
   std::vector<std::string> names;
-  int depth = 0;
-  for (std::string line; std::getline(lines, line);)
-  {
-    const std::size_t first = line.find_first_not_of(' ');
-    if (first == std::string::npos)
-      continue;
-    line.erase(0, first);
-    if (line.compare(0, 11, "subsection ") == 0)
-      ++depth;
-    else if (line == "end")
-      --depth;
-    else if (depth == 0 && line.compare(0, 4, "set ") == 0)
-    {
-      std::string name = line.substr(4, line.find(" = ") - 4);
-      name.erase(name.find_last_not_of(' ') + 1);
-      names.push_back(name);
-    }
-  }
+  const nlohmann::ordered_json tree = declared_tree(*this);
+  for (const auto &item : tree.items())
+    if (is_entry(item.value()))
+      names.push_back(item.key());
   return names;
 }
 

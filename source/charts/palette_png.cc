@@ -18,13 +18,13 @@ namespace sabot_charts
 {
 void write_palette_png(vtkRenderWindow *const window, const std::string &file)
 {
-  constexpr int n_colours = 256;
+  constexpr int n_colors = 256;
   vtkNew<vtkWindowToImageFilter> shot;
   shot->SetInput(window);
   shot->ReadFrontBufferOff();
   vtkNew<vtkImageQuantizeRGBToIndex> quantize;
   quantize->SetInputConnection(shot->GetOutputPort());
-  quantize->SetNumberOfColors(n_colours);
+  quantize->SetNumberOfColors(n_colors);
   quantize->Update();
   vtkImageData *const image = quantize->GetOutput();
   int size[3];
@@ -37,10 +37,10 @@ void write_palette_png(vtkRenderWindow *const window, const std::string &file)
           static_cast<png_byte>(image->GetScalarComponentAsDouble(x, y, 0, 0)));
   vtkLookupTable *const table = quantize->GetLookupTable();
   const int n_used = table->GetNumberOfTableValues();
-  std::vector<png_byte> colours;
+  std::vector<png_byte> colors;
   for (int k = 0; k < n_used; ++k)
     for (int c = 0; c < 3; ++c)
-      colours.push_back(static_cast<png_byte>(
+      colors.push_back(static_cast<png_byte>(
           std::lround(255. * table->GetTableValue(k)[c])));
   png_image png = {};
   png.version = PNG_IMAGE_VERSION;
@@ -49,7 +49,7 @@ void write_palette_png(vtkRenderWindow *const window, const std::string &file)
   png.format = PNG_FORMAT_RGB_COLORMAP;
   png.colormap_entries = n_used;
   if (png_image_write_to_file(&png, file.c_str(), 0, pixels.data(), 0,
-                              colours.data()) == 0)
+                              colors.data()) == 0)
     throw std::runtime_error("cannot write \"" + file + "\": " + png.message);
 }
 } // namespace sabot_charts

@@ -35,7 +35,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_body(const FrameBody &body);
 /** Whether the cells are single points: a body of particles. */
 bool is_of_particles(vtkUnstructuredGrid *grid);
 
-/** Median distance of a particle to its nearest neighbour. [m] */
+/** Median distance of a particle to its nearest neighbor. [m] */
 double particle_spacing(vtkUnstructuredGrid *grid);
 } // namespace sabot_charts
 

@@ -47,9 +47,9 @@ constexpr double widest = 1180., highest = 720., title_height = 44.,
                  bar_height = 66., gap = 8., caption_height = 22.;
 
 /** Bands are told apart more easily than a gradient, and compress well. The
-    colours are viridis (S. van der Walt and N. Smith), lightened at the low
+    colors are viridis (S. van der Walt and N. Smith), lightened at the low
     end so that quiet metal does not look black. */
-vtkSmartPointer<vtkLookupTable> make_colours(const std::array<double, 2> &range)
+vtkSmartPointer<vtkLookupTable> make_colors(const std::array<double, 2> &range)
 {
   constexpr int n_bands = 16;
   constexpr unsigned char viridis[9][3] = {
@@ -64,17 +64,17 @@ vtkSmartPointer<vtkLookupTable> make_colours(const std::array<double, 2> &range)
   {
     const double at = 8. * b / (n_bands - 1.);
     const int k = std::min(7, static_cast<int>(at));
-    double colour[3];
+    double color[3];
     for (int c = 0; c < 3; ++c)
-      colour[c] =
+      color[c] =
           (viridis[k][c] + (at - k) * (viridis[k + 1][c] - viridis[k][c])) /
           255.;
-    table->SetTableValue(b, colour[0], colour[1], colour[2]);
+    table->SetTableValue(b, color[0], color[1], color[2]);
   }
   return table;
 }
 
-/** What a colour bar counts in. */
+/** What a color bar counts in. */
 struct Unit
 {
   std::string text;
@@ -93,8 +93,7 @@ Unit unit_of(const std::string &field)
 class Painter
 {
 public:
-  Painter(const SectionView &view)
-      : view(view), colours(make_colours(view.range))
+  Painter(const SectionView &view) : view(view), colors(make_colors(view.range))
   {
     double origin[3] = {0., 0., 0.}, normal[3] = {0., 0., 0.};
     // A little inside: a symmetry plane lies on the faces of the cells, and
@@ -118,11 +117,11 @@ public:
 
 private:
   const SectionView &view;
-  vtkSmartPointer<vtkLookupTable> colours;
+  vtkSmartPointer<vtkLookupTable> colors;
   vtkNew<vtkPlane> plane;
 
-  void set_colours(vtkMapper *const mapper, vtkActor *const actor,
-                   const SectionBody &body) const
+  void set_colors(vtkMapper *const mapper, vtkActor *const actor,
+                  const SectionBody &body) const
   {
     if (!body.has_field)
     {
@@ -135,12 +134,12 @@ private:
     else
       mapper->SetScalarModeToUseCellFieldData();
     mapper->SelectColorArray("shown");
-    mapper->SetLookupTable(colours);
+    mapper->SetLookupTable(colors);
     mapper->UseLookupTableScalarRangeOn();
     mapper->SetColorModeToMapScalars();
   }
 
-  /** Spheres that touch their neighbours at the start. */
+  /** Spheres that touch their neighbors at the start. */
   void paint_particles(const SectionBody &body,
                        vtkRenderer *const renderer) const
   {
@@ -170,7 +169,7 @@ private:
     mapper->SetSourceConnection(sphere->GetOutputPort());
     mapper->ScalingOff();
     vtkNew<vtkActor> actor;
-    set_colours(mapper, actor, body);
+    set_colors(mapper, actor, body);
     actor->SetMapper(mapper);
     actor->GetProperty()->SetAmbient(0.55);
     actor->GetProperty()->SetDiffuse(0.5);
@@ -187,7 +186,7 @@ private:
     vtkNew<vtkPolyDataMapper> outside;
     outside->SetInputConnection(surface->GetOutputPort());
     vtkNew<vtkActor> back;
-    set_colours(outside, back, body);
+    set_colors(outside, back, body);
     back->SetMapper(outside);
     back->GetProperty()->SetAmbient(0.45);
     back->GetProperty()->SetDiffuse(0.5);
@@ -202,7 +201,7 @@ private:
     cut->SetRelativeCoincidentTopologyPolygonOffsetParameters(-2., -2.);
     cut->SetResolveCoincidentTopologyToPolygonOffset();
     vtkNew<vtkActor> front;
-    set_colours(cut, front, body);
+    set_colors(cut, front, body);
     front->SetMapper(cut);
     front->GetProperty()->LightingOff();
     front->GetProperty()->EdgeVisibilityOn();
@@ -232,21 +231,21 @@ private:
 
 void add_text(vtkRenderer *const renderer, const std::string &text,
               const double x, const double y, const int size,
-              const bool is_centred)
+              const bool is_centered)
 {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   actor->SetPosition(x, y);
   actor->GetTextProperty()->SetFontSize(size);
   actor->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
-  if (is_centred)
+  if (is_centered)
     actor->GetTextProperty()->SetJustificationToCentered();
   renderer->AddActor2D(actor);
 }
 
 /** A line of round length in a corner of a panel. */
 void add_scale(vtkRenderer *const renderer, const SectionView &view,
-               const double pixels_per_metre)
+               const double pixels_per_meter)
 {
   const double power = std::pow(10., std::floor(std::log10(view.width() / 4.)));
   const double mantissa = view.width() / 4. / power;
@@ -255,7 +254,7 @@ void add_scale(vtkRenderer *const renderer, const SectionView &view,
                                                   : 1.);
   vtkNew<vtkLineSource> line;
   line->SetPoint1(10., 12., 0.);
-  line->SetPoint2(10. + length * pixels_per_metre, 12., 0.);
+  line->SetPoint2(10. + length * pixels_per_meter, 12., 0.);
   vtkNew<vtkPolyDataMapper2D> mapper;
   mapper->SetInputConnection(line->GetOutputPort());
   vtkNew<vtkActor2D> actor;
@@ -318,9 +317,9 @@ void add_color_bar(vtkRenderer *const page, const SectionView &view,
 {
   vtkNew<vtkScalarBarActor> bar;
   const Unit unit = unit_of(field);
-  const vtkSmartPointer<vtkLookupTable> colours =
-      make_colours({{view.range[0] / unit.size, view.range[1] / unit.size}});
-  bar->SetLookupTable(colours);
+  const vtkSmartPointer<vtkLookupTable> colors =
+      make_colors({{view.range[0] / unit.size, view.range[1] / unit.size}});
+  bar->SetLookupTable(colors);
   bar->SetOrientationToHorizontal();
   bar->SetTitle("");
   bar->SetNumberOfLabels(5);

@@ -19,7 +19,7 @@ struct SectionRequest
   int normal = -1;           // axis of the plane's normal; -1: chosen
   bool has_position = false, has_range = false, has_window = false;
   double position = 0.;           // of the plane along its normal [m]
-  std::array<double, 2> range{};  // of the colours, SI
+  std::array<double, 2> range{};  // of the colors, SI
   std::array<double, 4> window{}; // right low, high, up low, high [m]
 
   /** From an entry of kind "section". @throw std::runtime_error */
@@ -42,7 +42,7 @@ struct SectionPanel
   std::vector<SectionBody> bodies;
 };
 
-/** Plane, window and colours of a picture and what is in its panels. */
+/** Plane, window and colors of a picture and what is in its panels. */
 struct SectionView
 {
   int normal, right, up; // axes; the half space along +normal is shown
@@ -59,7 +59,7 @@ struct SectionView
  * Read the frames and choose what the request leaves open, its field, too. The
  * plane goes
  * through the fastest body: through 0 where that touches the body, else through
- * its centre; "up" is the axis of its flight. The window holds the bodies that
+ * its center; "up" is the axis of its flight. The window holds the bodies that
  * are small against the largest, and what has strained by more than 1 %, but
  * for the outermost 0.5 % of the particles. @throw std::runtime_error
  */

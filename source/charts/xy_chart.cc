@@ -47,9 +47,9 @@ void add_series(vtkChartXY *chart, const json &series)
     for (int c = 0; c < 2; ++c)
       table->SetValue(i, c,
                       points[points.size() == 1 ? 0 : i][c].get<double>());
-  const std::string colour = series["colour"];
+  const std::string color = series["color"];
   unsigned int r = 0, g = 0, b = 0;
-  std::sscanf(colour.c_str(), "#%2x%2x%2x", &r, &g, &b);
+  std::sscanf(color.c_str(), "#%2x%2x%2x", &r, &g, &b);
   const bool has_line = series["has_line"], has_points = series["has_points"];
   vtkPlotPoints *const plot = vtkPlotPoints::SafeDownCast(
       chart->AddPlot(has_line ? vtkChart::LINE : vtkChart::POINTS));

@@ -59,13 +59,13 @@ void Contact::update_surfaces()
 void Contact::update_search(const unsigned int, const double dt)
 {
   // Both sides move: candidates hold until together they covered the skin.
-  travelled += largest_closing_speed(bodies, holds_apart(), communicator) * dt;
+  traveled += largest_closing_speed(bodies, holds_apart(), communicator) * dt;
   unsigned int version = 0;
   for (const Body *body : bodies)
     version += body->contact_surface_version();
   if (version != surface_version)
     update_surfaces();
-  if (travelled > skin || version != surface_version)
+  if (traveled > skin || version != surface_version)
     search();
   surface_version = version;
 }
@@ -79,7 +79,7 @@ void Contact::add_forces(const double dt)
   points.clear();
   touched.clear();
   for (std::size_t g = 0; g < groups.size(); ++g)
-    if (!(travelled < groups[g].wake)) // else still apart
+    if (!(traveled < groups[g].wake)) // else still apart
       press(g, dt);
   points.find_forces(options, dt);
   for (const ContactPoint &point : points)
@@ -108,7 +108,7 @@ void Contact::press(const std::size_t number, const double dt)
   if (f < 0)
   {
     group.memory.release();
-    group.wake = travelled + 0.99 * std::sqrt(projection.distance_square);
+    group.wake = traveled + 0.99 * std::sqrt(projection.distance_square);
     return;
   }
   ContactPoint point;

@@ -14,7 +14,7 @@ double Contact::patch_radius(const int nodes_of, const int faces_of) const
 
 void Contact::search()
 {
-  travelled = 0.;
+  traveled = 0.;
   double spacing = 0.;
   for (const ContactPair &pair : pairs)
     for (const int b : {pair.faces_of, pair.nodes_of})
@@ -139,7 +139,7 @@ void Contact::reset_slots()
 
 void Contact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("traveled", traveled);
   visitor.visit_value("surface version", surface_version);
   visitor.visit_value("penetration", penetration_over_spacing);
   // Candidates were found where the bodies were at the last search, so they

@@ -11,7 +11,7 @@ namespace sabot
 namespace
 {
 /** Which faces of its own body a node may meet: those that it faces, from
-    outside, and that are no neighbours of its own faces. */
+    outside, and that are no neighbors of its own faces. */
 class OwnFaces
 {
 public:

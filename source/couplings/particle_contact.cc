@@ -44,8 +44,8 @@ void ParticleContact::initialize()
 
 void ParticleContact::update_search(const unsigned int, const double dt)
 {
-  travelled += largest_closing_speed(bodies, pairs, communicator) * dt;
-  if (travelled > allowance)
+  traveled += largest_closing_speed(bodies, pairs, communicator) * dt;
+  if (traveled > allowance)
     search();
 }
 
@@ -74,7 +74,13 @@ ParticleContact::Group ParticleContact::make_group(
 
 void ParticleContact::search()
 {
-  travelled = 0.;
+<<<<<<< HEAD
+  traveled = 0.;
+=======
+  traveled = 0.;
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+>>>>>>> main
   const ParticleSearch found(bodies, pairs, skin, communicator);
   allowance = std::max(skin, found.gap());
   // Owners look for what their nodes may touch.
@@ -326,7 +332,7 @@ Measures ParticleContact::measure() const
 
 void ParticleContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("traveled", traveled);
   visitor.visit_value("allowance", allowance);
   visitor.visit_value("penetration", penetration_over_spacing);
   // Candidates were found where the bodies were at the last search.

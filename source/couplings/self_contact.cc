@@ -92,10 +92,10 @@ void SelfContact::initialize()
 
 void SelfContact::update_search(const unsigned int, const double dt)
 {
-  travelled += largest_closing_speed(bodies, body_pairs, communicator) * dt;
+  traveled += largest_closing_speed(bodies, body_pairs, communicator) * dt;
   // Newly failed particles are met at the next search; those that come close
   // by then were bonded until the last kernel update.
-  if (travelled > skin)
+  if (traveled > skin)
     search();
 }
 
@@ -164,7 +164,7 @@ void SelfContact::find_pairs()
 
 void SelfContact::search()
 {
-  travelled = 0.;
+  traveled = 0.;
   find_pairs();
   build_halo();
   if (!options.shear_strength.needs_flow_stress())
@@ -276,7 +276,7 @@ Measures SelfContact::measure() const
 
 void SelfContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("travelled", travelled);
+  visitor.visit_value("traveled", traveled);
   visitor.visit_value("loose particles", n_loose);
   // A pair knows at which distance it was first met.
   visitor.visit_resized("pairs", pairs);

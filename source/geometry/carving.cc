@@ -89,7 +89,7 @@ bool ZoneShape::contains(const std::array<double, 3> &point) const
   double square = 0.;
   for (int d = 0; d < 3; ++d)
   {
-    const double x = (point[d] - centre[d]) / (0.5 * size[d]);
+    const double x = (point[d] - center[d]) / (0.5 * size[d]);
     if (axis >= 0 && d != axis)
       square += x * x;
     else if (!(std::abs(x) < 1.))
@@ -104,7 +104,7 @@ bool ZoneShape::is_coaxial(const unsigned int line_axis,
   bool same = axis == int(line_axis);
   for (unsigned int d = 0; d < 3; ++d)
     same = same &&
-           (d == line_axis || std::abs(centre[d] - point[d]) < 1e-6 * size[d]);
+           (d == line_axis || std::abs(center[d] - point[d]) < 1e-6 * size[d]);
   return same;
 }
 
@@ -115,17 +115,17 @@ CarvedMesh carve(const HexMesh &mesh, const ZoneShape &shape,
   std::size_t n_in = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
-    std::array<double, 3> centre{{0., 0., 0.}};
+    std::array<double, 3> center{{0., 0., 0.}};
     for (const GlobalIndex a : mesh.cells[c])
       for (int d = 0; d < 3; ++d)
-        centre[d] += 0.125 * mesh.nodes[a][d];
-    is_in[c] = shape.contains(centre);
+        center[d] += 0.125 * mesh.nodes[a][d];
+    is_in[c] = shape.contains(center);
     n_in += is_in[c];
   }
   if (n_in == 0)
     throw InputError(path, "no cell of the body that the zone is carved from "
-                           "has its centre in the zone; check its size and "
-                           "centre");
+                           "has its center in the zone; check its size and "
+                           "center");
   if (n_in == mesh.cells.size())
     throw InputError(path, "the zone leaves nothing of the body that it is "
                            "carved from; make it smaller");

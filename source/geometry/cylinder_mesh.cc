@@ -215,7 +215,7 @@ unsigned int cylinder_face_id(const dealii::Point<3> &p, const double radius,
 
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
-                      const std::array<double, 3> &centre,
+                      const std::array<double, 3> &center,
                       const double cell_size, const unsigned int n_cuts,
                       const CylinderGrading &grading)
 {
@@ -238,7 +238,7 @@ HexMesh make_cylinder(const double radius, const double length,
         const double local[3] = {p[0], p[1], p[2] - 0.5 * length};
         dealii::Point<3> q;
         for (unsigned int d = 0; d < 3; ++d)
-          q[(axis + 1 + d) % 3] = local[d] + centre[(axis + 1 + d) % 3];
+          q[(axis + 1 + d) % 3] = local[d] + center[(axis + 1 + d) % 3];
         return q;
       },
       mesh);

@@ -108,7 +108,7 @@ HexMesh extract_mesh(const dealii::Triangulation<3, 3> &mesh)
   dealii::FEValues<3> values(
       fe, quadrature, dealii::update_gradients | dealii::update_JxW_values);
 
-  std::vector<dealii::Point<3>> node(dofs.n_dofs()), centre;
+  std::vector<dealii::Point<3>> node(dofs.n_dofs()), center;
   std::vector<dealii::types::global_dof_index> local(8);
   std::vector<Cell> cells;
   for (const auto &cell : dofs.active_cell_iterators())
@@ -116,12 +116,12 @@ HexMesh extract_mesh(const dealii::Triangulation<3, 3> &mesh)
     cell->get_dof_indices(local);
     for (unsigned int a = 0; a < 8; ++a)
       node[local[a]] = cell->vertex(a);
-    centre.push_back(cell->center());
+    center.push_back(cell->center());
     cells.push_back(cell);
   }
   HexMesh result;
   const std::vector<GlobalIndex> node_number = number_nodes(node, result);
-  for (const std::size_t c : curve_order(centre))
+  for (const std::size_t c : curve_order(center))
   {
     const Cell &cell = cells[c];
     cell->get_dof_indices(local);

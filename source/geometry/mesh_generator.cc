@@ -80,13 +80,13 @@ Planes planes_of(const BoxSpecification &box)
   bool zone_inside = true;
   for (unsigned int d = 0; d < 3; ++d)
   {
-    const double low = box.centre[d] - 0.5 * box.size[d],
-                 high = box.centre[d] + 0.5 * box.size[d];
+    const double low = box.center[d] - 0.5 * box.size[d],
+                 high = box.center[d] + 0.5 * box.size[d];
     double inner_low = low, inner_high = high;
     if (box.has_zone)
     {
-      inner_low = box.zone_centre[d] - 0.5 * box.zone_size[d];
-      inner_high = box.zone_centre[d] + 0.5 * box.zone_size[d];
+      inner_low = box.zone_center[d] - 0.5 * box.zone_size[d];
+      inner_high = box.zone_center[d] + 0.5 * box.zone_size[d];
       const double tolerance = 1e-6 * box.size[d];
       zone_inside = zone_inside && inner_low > low - tolerance &&
                     inner_high < high + tolerance;
@@ -98,7 +98,7 @@ Planes planes_of(const BoxSpecification &box)
   if (!zone_inside)
     throw InputError(box.zone_path + "/Size",
                      "the zone reaches outside the body that it is "
-                     "part of; make it smaller or move its centre");
+                     "part of; make it smaller or move its center");
   return planes;
 }
 
@@ -111,7 +111,7 @@ bool is_cut(const BoxSpecification &box, const Planes &planes,
   {
     const double middle = 0.5 * (planes[d][at[d]] + planes[d][at[d] + 1]);
     inside = inside &&
-             std::abs(middle - box.zone_centre[d]) < 0.5 * box.zone_size[d];
+             std::abs(middle - box.zone_center[d]) < 0.5 * box.zone_size[d];
   }
   return inside;
 }
@@ -123,8 +123,8 @@ unsigned int box_face_id(const BoxSpecification &box, const dealii::Point<3> &x)
   unsigned int id = 6;
   for (unsigned int d = 0; d < 3; ++d)
   {
-    const double low = box.centre[d] - 0.5 * box.size[d],
-                 high = box.centre[d] + 0.5 * box.size[d];
+    const double low = box.center[d] - 0.5 * box.size[d],
+                 high = box.center[d] + 0.5 * box.size[d];
     if (std::abs(x[d] - low) < 1e-9 * box.size[d])
       id = 2 * d;
     if (std::abs(x[d] - high) < 1e-9 * box.size[d])
@@ -142,7 +142,7 @@ HexMesh make_graded_box(const BoxSpecification &box)
   dealii::Point<3> low;
   for (unsigned int d = 0; d < 3; ++d)
   {
-    low[d] = box.centre[d] - 0.5 * box.size[d];
+    low[d] = box.center[d] - 0.5 * box.size[d];
     for (std::size_t i = 1; i < planes[d].size(); ++i)
       steps[d].push_back(planes[d][i] - planes[d][i - 1]);
   }

@@ -132,7 +132,7 @@ HexMesh read_mesh(const std::string &file, const double unit,
 
 MeshQuality measure_quality(const HexMesh &mesh)
 {
-  // The neighbours of each corner, right-handed, in VTK order.
+  // The neighbors of each corner, right-handed, in VTK order.
   constexpr int next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                               {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
   constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -15,15 +15,15 @@ unsigned int n_intervals(const double length, const double spacing)
   return std::max(1u, static_cast<unsigned int>(std::lround(length / spacing)));
 }
 
-ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
+ParticleCloud make_box_cloud(const std::array<double, 3> &center,
                              const std::array<double, 3> &size,
                              const double nodal_spacing)
 {
-  return make_box_cloud(centre, size,
+  return make_box_cloud(center, size,
                         {{nodal_spacing, nodal_spacing, nodal_spacing}});
 }
 
-ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
+ParticleCloud make_box_cloud(const std::array<double, 3> &center,
                              const std::array<double, 3> &size,
                              const std::array<double, 3> &nodal_spacing)
 {
@@ -60,7 +60,7 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
     for (unsigned int d = 0; d < 3; ++d)
     {
       const unsigned int i = lattice[p][d];
-      x[d] = centre[d] - 0.5 * size[d] + size[d] * i / n[d];
+      x[d] = center[d] - 0.5 * size[d] + size[d] * i / n[d];
       const bool low = i == 0, high = i == n[d];
       volume *= cloud.spacing[d] * (low || high ? 0.5 : 1.);
       faces |= (low ? 1u : 0u) << (2 * d) | (high ? 1u : 0u) << (2 * d + 1);

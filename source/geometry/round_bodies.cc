@@ -191,7 +191,7 @@ double nose_volume(const ProjectileSpecification &p)
 }
 } // namespace
 
-HexMesh make_sphere(const double radius, const std::array<double, 3> &centre,
+HexMesh make_sphere(const double radius, const std::array<double, 3> &center,
                     const double cell_size)
 {
   const auto n = divisions(cell_size / radius);
@@ -202,7 +202,7 @@ HexMesh make_sphere(const double radius, const std::array<double, 3> &centre,
   dealii::GridTools::scale(
       radius * std::cbrt(exact / dealii::GridTools::volume(mesh)), mesh);
   dealii::GridTools::shift(
-      dealii::Tensor<1, 3>({centre[0], centre[1], centre[2]}), mesh);
+      dealii::Tensor<1, 3>({center[0], center[1], center[2]}), mesh);
   return extract_mesh(mesh);
 }
 
@@ -238,7 +238,7 @@ HexMesh make_projectile(const ProjectileSpecification &spec)
         dealii::Point<3> q;
         for (unsigned int d = 0; d < 3; ++d)
           q[(spec.axis + 1 + d) % 3] =
-              local[d] + spec.centre[(spec.axis + 1 + d) % 3];
+              local[d] + spec.center[(spec.axis + 1 + d) % 3];
         return q;
       },
       mesh);

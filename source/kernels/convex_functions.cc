@@ -9,7 +9,7 @@ namespace
 {
 constexpr int max_iterations = 50, max_halvings = 20;
 constexpr double tolerance = 1e-12; // of the offset, in lengths
-/** Below this variance of the neighbours, in lengths squared, they do not span
+/** Below this variance of the neighbors, in lengths squared, they do not span
     space. */
 constexpr double least_variance = 1e-4;
 } // namespace
@@ -115,11 +115,11 @@ bool ConvexFunctions::solve(const double length, Vec &lambda)
 
 bool ConvexFunctions::spans_space(const double length) const
 {
-  const Vec centre = offset();
+  const Vec center = offset();
   Mat variance = Mat::zero();
   for (std::size_t j = 0; j < prior.size(); ++j)
-    add_outer(variance, value[j] * (distance[j] - centre),
-              distance[j] - centre);
+    add_outer(variance, value[j] * (distance[j] - center),
+              distance[j] - center);
   const double l2 = length * length;
   return determinant(variance) >
          least_variance * least_variance * least_variance * l2 * l2 * l2;

@@ -10,7 +10,7 @@
 namespace sabot
 {
 bool patch_weights(const std::vector<Vec> &point,
-                   const std::vector<double> &area, const Vec centre,
+                   const std::vector<double> &area, const Vec center,
                    const Vec normal, const double radius,
                    std::vector<double> &weight)
 {
@@ -25,7 +25,7 @@ bool patch_weights(const std::vector<Vec> &point,
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
   for (std::size_t a = 0; a < n; ++a)
   {
-    const Vec offset = (1. / radius) * (point[a] - centre);
+    const Vec offset = (1. / radius) * (point[a] - center);
     weight[a] = cubic_spline(norm(offset)) * area[a];
     const Eigen::Vector3d p(1., dot(offset, first), dot(offset, second));
     M += weight[a] * p * p.transpose();
@@ -36,7 +36,7 @@ bool patch_weights(const std::vector<Vec> &point,
   const Eigen::Vector3d c = M.inverse().col(0);
   for (std::size_t a = 0; a < n; ++a)
   {
-    const Vec offset = (1. / radius) * (point[a] - centre);
+    const Vec offset = (1. / radius) * (point[a] - center);
     weight[a] *= c[0] + c[1] * dot(offset, first) + c[2] * dot(offset, second);
     if (weight[a] < -largest_pull)
       return false;

@@ -57,11 +57,11 @@ std::unique_ptr<Material> make(const Parameters &prm, const std::string &path,
 
 const Registry<Material>::Add
     registered_fcc({"Zerilli-Armstrong fcc",
-                    "dislocation mechanics of face-centred cubic metals.",
+                    "dislocation mechanics of face-centered cubic metals.",
                     declare<false>, make<false>});
 const Registry<Material>::Add
     registered_bcc({"Zerilli-Armstrong bcc",
-                    "dislocation mechanics of body-centred cubic metals.",
+                    "dislocation mechanics of body-centered cubic metals.",
                     declare<true>, make<true>});
 } // namespace
 } // namespace sabot

@@ -92,7 +92,7 @@ void BodyAssembly::carve_meshes()
       size = discretization_of(c.body)->cell_size(prm);
       const NamedMesh whole = make_mesh("Bodies/" + c.body, size, &c);
       CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
-                               "Bodies/" + c.zone + "/Centre");
+                               "Bodies/" + c.zone + "/Center");
       cells[c.body] = {std::move(parts.rest), whole.faces};
       cells[c.zone] = {std::move(parts.zone), whole.faces};
       if (!shape_of(c.body)->follows_cell_size())

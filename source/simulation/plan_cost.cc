@@ -80,7 +80,7 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     CostPlan::Item item{body->name, body->item_name(), double(body->n_items()),
                         0.};
     if (const ParticleView *const particles = body->particles())
-      item.neighbours =
+      item.neighbors =
           sum_over_ranks(particles->n_bonds(), communicator) / item.n;
     plan.items.push_back(item);
   }

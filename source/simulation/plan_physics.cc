@@ -194,11 +194,11 @@ void judge_switches(const Scene &scene, PhysicsPlan &plan)
   {
     if (d == plan.impact.axis)
       continue;
-    const double centre = 0.5 * (p.low[d] + p.high[d]);
+    const double center = 0.5 * (p.low[d] + p.high[d]);
     bool symmetric = true;
     for (const PlannedBody &body : plan.bodies)
       symmetric = symmetric && body.facts.velocity[d] == 0. &&
-                  std::abs(0.5 * (body.low[d] + body.high[d]) - centre) <
+                  std::abs(0.5 * (body.low[d] + body.high[d]) - center) <
                       1e-6 * (body.high[d] - body.low[d]);
     if (symmetric)
       axes += std::string(axes.empty() ? "" : " and ") + "xyz"[d];
@@ -239,7 +239,7 @@ nlohmann::ordered_json to_json(const PhysicsPlan &physics, const CostPlan &cost)
   plan["bodies"] = ordered_json::object();
   for (const CostPlan::Item &item : cost.items)
     plan["bodies"][item.body] = {{item.kind, item.n},
-                                 {"neighbours", item.neighbours}};
+                                 {"neighbors", item.neighbors}};
   plan["stable_step"] = cost.first_stable_step;
   plan["limiter"] = cost.limiter;
   plan["steps"] = cost.steps;
@@ -265,11 +265,11 @@ std::string to_text(const PhysicsPlan &physics, const CostPlan &cost)
            std::to_string(cost.calibration_steps) + ": " + cost.problem + "\n";
   out += "What it costs\n";
   for (const CostPlan::Item &item : cost.items)
-    out += "  " + item.body + ": " + text("%.0f ", item.n) + item.kind +
-           (item.neighbours > 0.
-                ? text(" with %.1f neighbours each", item.neighbours)
-                : "") +
-           "\n";
+    out +=
+        "  " + item.body + ": " + text("%.0f ", item.n) + item.kind +
+        (item.neighbors > 0. ? text(" with %.1f neighbors each", item.neighbors)
+                             : "") +
+        "\n";
   out += "  stable step " + text("%.3g s", cost.first_stable_step) +
          " at the start, limited by " + cost.limiter + "\n";
   out += "  steps " +

@@ -57,8 +57,8 @@ void declare_body(Parameters &prm, const std::string &discretization,
   prm.declare_entry("Material", "", any_text(),
                     "Name of a subsection of Materials.");
   const Pattern vector3 = quantities(Dimension::length, 3, 3, -1e3, 1e3);
-  prm.declare_entry("Centre", "0 m, 0 m, 0 m", vector3,
-                    "Position of the centre.");
+  prm.declare_entry("Center", "0 m, 0 m, 0 m", vector3,
+                    "Position of the center.");
   prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
                     quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");

@@ -83,7 +83,7 @@ void check_overlaps(const Scene &scene, const ParameterFile &file)
         size = std::min({size, a.high[d] - a.low[d], b.high[d] - b.low[d]});
       }
       if (overlap > 1e-6 * size + seen_from_outside)
-        throw InputError("Bodies/" + one.name + "/Centre",
+        throw InputError("Bodies/" + one.name + "/Center",
                          "bodies \"" + one.name + "\" and \"" + other.name +
                              "\" overlap by " + std::to_string(overlap * 1e3) +
                              " mm; move one of them apart");

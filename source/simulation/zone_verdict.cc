@@ -58,20 +58,20 @@ std::pair<Point, Point> smallest_box(const ZoneBox &zone, const Reach &reach)
   for (int d = 0; d < 3; ++d)
   {
     const double gap = margin * zone.spacing[d];
-    const double centre = 0.5 * (zone.low[d] + zone.high[d]);
+    const double center = 0.5 * (zone.low[d] + zone.high[d]);
     // Nothing happened: a block of a few particles stays.
-    double down = empty ? centre - gap : reach.low[d] - gap,
-           up = empty ? centre + gap : reach.high[d] + gap;
+    double down = empty ? center - gap : reach.low[d] - gap,
+           up = empty ? center + gap : reach.high[d] + gap;
     if (zone.axis >= 0 && d != zone.axis)
     {
-      down = centre - reach.radius - gap;
-      up = centre + reach.radius + gap;
+      down = center - reach.radius - gap;
+      up = center + reach.radius + gap;
     }
     if (zone.tied_low[d] && zone.tied_high[d])
     {
-      const double half = std::max(centre - down, up - centre);
-      down = centre - half;
-      up = centre + half;
+      const double half = std::max(center - down, up - center);
+      down = center - half;
+      up = center + half;
     }
     if (zone.tied_low[d])
       low[d] = down;
@@ -129,8 +129,8 @@ std::vector<ZoneBox> find_zones(const Scene &scene)
     bool side = false; // of a cylinder, which a sector may have cut
     for (int d = 0; d < 3; ++d)
     {
-      zone.low[d] = carved.shape.centre[d] - 0.5 * carved.shape.size[d];
-      zone.high[d] = carved.shape.centre[d] + 0.5 * carved.shape.size[d];
+      zone.low[d] = carved.shape.center[d] - 0.5 * carved.shape.size[d];
+      zone.high[d] = carved.shape.center[d] + 0.5 * carved.shape.size[d];
       const double slack = 1e-3 * zone.spacing[d];
       zone.tied_low[d] = zone.low[d] > carved.host_low[d] + slack;
       zone.tied_high[d] = zone.high[d] < carved.host_high[d] - slack;

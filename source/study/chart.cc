@@ -15,10 +15,10 @@ namespace sabot
 {
 namespace
 {
-// Colours that stay apart for colour-blind readers (M. Okabe and K. Ito, 2008).
-const std::vector<std::string> colours = {"#0072B2", "#D55E00", "#009E73",
-                                          "#CC79A7", "#E69F00", "#56B4E9",
-                                          "#000000", "#8C6D31"};
+// Colors that stay apart for color-blind readers (M. Okabe and K. Ito, 2008).
+const std::vector<std::string> colors = {"#0072B2", "#D55E00", "#009E73",
+                                         "#CC79A7", "#E69F00", "#56B4E9",
+                                         "#000000", "#8C6D31"};
 
 constexpr double width = 640., height = 380., left = 80., right = 20.,
                  top = 34., bottom = 52.;
@@ -142,7 +142,7 @@ std::string draw_svg(const Chart &chart)
   for (std::size_t s = 0; s < chart.series.size(); ++s)
   {
     const Chart::Series &series = chart.series[s];
-    const std::string &colour = colours[s % colours.size()];
+    const std::string &color = colors[s % colors.size()];
     std::ostringstream points, circles;
     for (std::size_t i = 0; i < series.x.size(); ++i)
     {
@@ -152,7 +152,7 @@ std::string draw_svg(const Chart &chart)
       points << px << "," << py << " ";
       if (series.has_points)
         circles << "<circle cx='" << px << "' cy='" << py << "' r='4' fill='"
-                << colour << "'>"
+                << color << "'>"
                 << (i < series.names.size()
                         ? "<title>" + escape_html(series.names[i]) + "</title>"
                         : "")
@@ -160,18 +160,17 @@ std::string draw_svg(const Chart &chart)
     }
     const std::string dash = series.is_dashed ? " stroke-dasharray='7 4'" : "";
     if (series.has_line)
-      svg << "<polyline fill='none' stroke='" << colour
-          << "' stroke-width='1.6'" << dash << " points='" << points.str()
-          << "'/>";
+      svg << "<polyline fill='none' stroke='" << color << "' stroke-width='1.6'"
+          << dash << " points='" << points.str() << "'/>";
     svg << circles.str();
     const double ly = height + 12. + 18. * s;
     if (series.has_line)
       svg << "<line x1='" << left << "' x2='" << left + 26 << "' y1='" << ly - 4
-          << "' y2='" << ly - 4 << "' stroke='" << colour
-          << "' stroke-width='2'" << dash << "/>";
+          << "' y2='" << ly - 4 << "' stroke='" << color << "' stroke-width='2'"
+          << dash << "/>";
     if (series.has_points)
       svg << "<circle cx='" << left + 13 << "' cy='" << ly - 4
-          << "' r='4' fill='" << colour << "'/>";
+          << "' r='4' fill='" << color << "'/>";
     svg << "<text x='" << left + 34 << "' y='" << ly << "'>"
         << escape_html(series.label) << "</text>\n";
   }
@@ -197,7 +196,7 @@ nlohmann::ordered_json to_json(const Chart &chart)
           (!chart.is_x_logarithmic || series.x[i] > 0.))
         points.push_back({series.x[i], series.y[i]});
     json["series"].push_back({{"label", series.label},
-                              {"colour", colours[s % colours.size()]},
+                              {"color", colors[s % colors.size()]},
                               {"has_line", series.has_line},
                               {"has_points", series.has_points},
                               {"is_dashed", series.is_dashed},

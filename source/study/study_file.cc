@@ -153,7 +153,7 @@ void StudyFile::declare(Parameters &prm,
                     "Whether the report shows a section through each run that "
                     "has fields (outputs of type VTU).");
   prm.declare_entry("Picture field", "", any_text(),
-                    "Field that colours the sections; none: effective plastic "
+                    "Field that colors the sections; none: effective plastic "
                     "strain, or velocity where nothing can yield.");
   prm.declare_entry("Picture times", "", any_text(),
                     "Times of the sections, separated by commas; none: the end "

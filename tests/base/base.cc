@@ -89,7 +89,7 @@ TEST(Text, is_trimmed_split_and_joined)
 
 TEST(NearestName, finds_the_likely_one)
 {
-  EXPECT_EQ(nearest_name("nodal spcing", {"Size", "Nodal spacing", "Centre"}),
+  EXPECT_EQ(nearest_name("nodal spcing", {"Size", "Nodal spacing", "Center"}),
             "Nodal spacing");
 }
 
@@ -194,7 +194,7 @@ TEST_F(Files, a_wrong_value_is_told_with_what_would_be_right)
   EXPECT_CONTAINS(m, "scene.prm:3: ");
   EXPECT_CONTAINS(m, "\"1 kg\"");
   EXPECT_CONTAINS(m, "a length");
-  EXPECT_CONTAINS(message("", {"Bodies/plate/Kind=SPH"}), "one of FEM SPG");
+  EXPECT_CONTAINS(message("", {"Bodies/plate/Kind=SPH"}), "one of FEM, SPG");
 }
 
 TEST_F(Files, structure_is_checked)

@@ -78,7 +78,7 @@ TEST(Mesh, a_zone_is_cut_out_exactly)
       area += 0.5 * norm(cross(x(2) - x(0), x(3) - x(1)));
     }
   EXPECT_NEAR(area, 4. * 30e-3 * 12.7e-3, 1e-12);
-  b.zone_centre = {{100e-3, 0., 0.}};
+  b.zone_center = {{100e-3, 0., 0.}};
   EXPECT_THROW(make_graded_box(b), InputError);
 }
 

@@ -65,7 +65,7 @@ TEST(Spg, a_linear_field_is_reproduced_on_a_perturbed_cloud)
       EXPECT_NEAR(body.stress(c, i), s0[c], 1e-9 * scale);
   }
   // The bond residual vanishes for linear fields.
-  EXPECT_NEAR(measure(body, "stabilisation energy"), 0., 1e-20);
+  EXPECT_NEAR(measure(body, "stabilization energy"), 0., 1e-20);
 }
 
 TEST(Spg, rigid_rotation_through_kernel_updates_gives_no_stress)
@@ -430,10 +430,10 @@ TEST(SpgBody, cracks_heal_where_they_have_closed)
   world.distribute();
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   NodalState &n = body.nodes();
-  std::size_t centre = 0;
+  std::size_t center = 0;
   for (std::size_t i = 0; i < n.n_owned; ++i)
     if (norm_square(n.reference_position[i]) < 1e-12)
-      centre = i;
+      center = i;
   const auto deform = [&](const double lateral, const double axial)
   {
     for (std::size_t i = 0; i < n.n_owned; ++i)
@@ -446,18 +446,18 @@ TEST(SpgBody, cracks_heal_where_they_have_closed)
     body.update_topology(30, 0.);
   };
   const auto tension = [&] {
-    return std::max({body.stress(0, centre), body.stress(2, centre), 0.});
+    return std::max({body.stress(0, center), body.stress(2, center), 0.});
   };
   for (const double lateral : {1.5, 2.2, 3.2, 4.5, 6., 9.})
     deform(lateral, 1.);
   for (const double axial : {0.5, 0.2, 0.08, 0.03, 0.013})
     deform(9., axial);
-  ASSERT_TRUE(body.is_weak(centre));
-  const auto J = [&] { return determinant(body.deformation_gradient(centre)); };
+  ASSERT_TRUE(body.is_weak(center));
+  const auto J = [&] { return determinant(body.deformation_gradient(center)); };
   const auto expect_open = [&]
   {
     EXPECT_GT(J(), 1.05);
-    EXPECT_TRUE(body.is_weak(centre));
+    EXPECT_TRUE(body.is_weak(center));
     EXPECT_LT(tension(), 1.);
   };
   for (const double axial : {0.05, 0.1, 0.2})
@@ -472,9 +472,9 @@ TEST(SpgBody, cracks_heal_where_they_have_closed)
   }
   deform(3., 0.2);
   EXPECT_LT(J(), 0.95);
-  EXPECT_FALSE(body.is_weak(centre));
-  EXPECT_LT(body.stress(0, centre) + body.stress(1, centre) +
-                body.stress(2, centre),
+  EXPECT_FALSE(body.is_weak(center));
+  EXPECT_LT(body.stress(0, center) + body.stress(1, center) +
+                body.stress(2, center),
             0.);
 }
 } // namespace

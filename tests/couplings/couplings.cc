@@ -13,11 +13,11 @@ namespace
 using namespace sabot;
 
 BoxSpecification box(const std::array<double, 3> &size,
-                     const std::array<double, 3> &centre, const double h)
+                     const std::array<double, 3> &center, const double h)
 {
   BoxSpecification b;
   b.size = size;
-  b.centre = centre;
+  b.center = center;
   b.cell_size = h;
   return b;
 }
@@ -36,7 +36,7 @@ void add_fem(World &world, const HexMesh &mesh,
 }
 
 void add_spg(World &world, const std::array<double, 3> &size,
-             const std::array<double, 3> &centre, const double h,
+             const std::array<double, 3> &center, const double h,
              const std::array<double, 3> &velocity = {{0, 0, 0}})
 {
   SpgOptions options;
@@ -44,7 +44,7 @@ void add_spg(World &world, const std::array<double, 3> &size,
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
   world.bodies.push_back(std::make_unique<SpgBody>(
       "spg" + std::to_string(world.bodies.size()), world.bodies.size(),
-      make_box_cloud(centre, size, h), elastic(), options));
+      make_box_cloud(center, size, h), elastic(), options));
 }
 
 /** A bar of hexahedra (cells of @p cell) and particles (spacing 1 mm), tied. */

@@ -17,14 +17,14 @@ struct Block
   std::vector<Vec> position;
   AlignedVector<VolumePoint> volume;
 
-  Block(const std::array<double, 3> &size, const std::array<double, 3> &centre,
+  Block(const std::array<double, 3> &size, const std::array<double, 3> &center,
         const Mat &F, const std::uint32_t symmetry = 0)
   {
     SpgOptions options;
     options.symmetry_faces = symmetry;
     World world;
     world.bodies.push_back(std::make_unique<SpgBody>(
-        "block", 0, make_box_cloud(centre, size, h), elastic(), options));
+        "block", 0, make_box_cloud(center, size, h), elastic(), options));
     world.distribute();
     // Through a kernel update, as in a run.
     NodalState &n = world.bodies[0]->nodes();

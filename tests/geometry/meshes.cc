@@ -98,7 +98,7 @@ TEST(RoundBodies, noses_have_their_volume_and_length)
       p.nose = nose;
       p.axis = n % 3;
       p.towards_positive = positive;
-      p.centre = {{1e-3, 2e-3, 3e-3}};
+      p.center = {{1e-3, 2e-3, 3e-3}};
       const HexMesh mesh = make_projectile(p);
       const double exact = shaft + expected[n / 2];
       EXPECT_NEAR(volume(mesh), exact, 1e-8 * exact);
@@ -108,14 +108,14 @@ TEST(RoundBodies, noses_have_their_volume_and_length)
         low = std::min(low, x[p.axis]);
         high = std::max(high, x[p.axis]);
       }
-      EXPECT_NEAR(high - p.centre[p.axis], 15e-3, 1e-12);
-      EXPECT_NEAR(low - p.centre[p.axis], -15e-3, 1e-12);
+      EXPECT_NEAR(high - p.center[p.axis], 15e-3, 1e-12);
+      EXPECT_NEAR(low - p.center[p.axis], -15e-3, 1e-12);
       const double end = positive ? -15e-3 : 15e-3;
       for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
         if (mesh.boundary_id[f] == 0)
         {
           EXPECT_NEAR(mesh.nodes[mesh.boundary_faces[f][0]][p.axis],
-                      p.centre[p.axis] + end, 1e-12);
+                      p.center[p.axis] + end, 1e-12);
         }
       EXPECT_GT(measure_quality(mesh).scaled_jacobian, 0.1)
           << measure_quality(mesh).text();
@@ -295,7 +295,7 @@ TEST(Carving, the_parts_fill_the_body_and_share_their_nodes)
   ZoneShape zone;
   zone.axis = 2;
   zone.size = {{2. * r, 2. * r, 2. * L}};
-  const CarvedMesh parts = carve(whole, zone, 3, "Bodies/core/Centre");
+  const CarvedMesh parts = carve(whole, zone, 3, "Bodies/core/Center");
   // The zone is a cylinder of the exact volume, as its circle is a mesh line.
   EXPECT_NEAR(volume(parts.zone), M_PI * r * r * L, 1e-12 * volume(whole));
   EXPECT_NEAR(volume(parts.rest) + volume(parts.zone), volume(whole),
@@ -332,7 +332,7 @@ TEST(Carving, an_empty_part_is_refused)
   ZoneShape zone;
   zone.size = {{10., 10., 10.}};
   EXPECT_THROW(carve(mesh, zone, 6, "a"), InputError);
-  zone.centre = {{20., 0., 0.}};
+  zone.center = {{20., 0., 0.}};
   EXPECT_THROW(carve(mesh, zone, 6, "a"), InputError);
 }
 

@@ -23,7 +23,7 @@ public:
   Body(const std::string &shape, const std::vector<std::string> &entries = {})
       : shape(make_shape("Bodies/b/Geometry", shape)), file(read(entries))
   {
-    prm.declare_entry("Centre", "1 mm, 2 mm, 3 mm",
+    prm.declare_entry("Center", "1 mm, 2 mm, 3 mm",
                       quantities(Dimension::length, 3, 3), "");
     Registry<Shape>::declare_entries(prm, shape);
     this->shape->declare_grading(prm);
@@ -115,11 +115,11 @@ TEST(Shapes, zones_are_boxes_and_whole_cylinders)
 TEST(Shapes, a_box_has_one_zone_only)
 {
   Body body("box", {"Refined zone size = 0.5 mm, 0.5 mm, 0.5 mm",
-                    "Refined zone centre = 1 mm, 2 mm, 3 mm"});
+                    "Refined zone center = 1 mm, 2 mm, 3 mm"});
   EXPECT_NEAR(volume(body.mesh().mesh), 1e-9, 1e-20);
   Carving carving;
   carving.zone = "z";
-  carving.shape.centre = {{1e-3, 2e-3, 3e-3}};
+  carving.shape.center = {{1e-3, 2e-3, 3e-3}};
   carving.shape.size = {{0.5e-3, 0.5e-3, 0.5e-3}};
   EXPECT_THROW(body.mesh(&carving), InputError);
 }

@@ -200,7 +200,7 @@ class Scenes(unittest.TestCase):
         self.assertGreater(r["bodies"]["core"]["plastic_strain_max"], 0.1)
         for override, expected in (
                 ("Bodies/core/Nodal spacing=2 mm", "nodes of cells of 0.8 mm"),
-                ("Bodies/core/Centre=50 mm, 0 mm, 0 mm", "no cell"),
+                ("Bodies/core/Center=50 mm, 0 mm, 0 mm", "no cell"),
                 ("Bodies/core/Sector=half", "has no effect"),
                 ("Bodies/core/Symmetry faces=side", "one plane"),
                 ("Bodies/target/Core radius=2 mm", "has no effect")):
@@ -464,7 +464,7 @@ class Scenes(unittest.TestCase):
             self.assertFalse(os.path.exists(out), override)
         for override, expected in (
                 ("Bodies/core/Size=300 mm, 30 mm, 12.7 mm", "outside"),
-                ("Bodies/projectile/Centre=0 mm, 0 mm, 0 mm", "overlap"),
+                ("Bodies/projectile/Center=0 mm, 0 mm, 0 mm", "overlap"),
                 ("Bodies/plate/Clamped faces=left", "is not a face")):
             done = sabot("check", QUICK, "--set", override)
             self.assertEqual(done.returncode, 1, done.stdout)
@@ -747,7 +747,7 @@ class Scenes(unittest.TestCase):
                     self.assertGreater(
                         whole["bodies"]["plate"]["eroded_cells"], 5)
 
-    def test_a_signalled_run_resumes(self):
+    def test_a_signaled_run_resumes(self):
         settings = ("--quiet", "--set", "End time=3 ms", "--set",
                     "Outputs/fields/Interval=1 ms", "--set",
                     "Outputs/averages/Interval=10 us")
@@ -854,7 +854,7 @@ class Scenes(unittest.TestCase):
                     "Bodies/projectile/Nose=conical", "--set",
                     "Bodies/projectile/Nose length=8 mm", "--set",
                     "Bodies/projectile/Discretization=rigid", "--set",
-                    "Bodies/projectile/Centre=0 mm, 0 mm, 30 mm"),
+                    "Bodies/projectile/Center=0 mm, 0 mm, 30 mm"),
                  "transits")):
             done = sabot("plan", os.path.join(
                 SOURCE, "prm/perforation/%s.prm" % scene), *settings, *short)
@@ -939,7 +939,7 @@ class Scenes(unittest.TestCase):
                 data = file.read()
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             self.assertGreater(len(data), 3000)
-            done = sabot("picture", out, "--field", "colour")
+            done = sabot("picture", out, "--field", "color")
             self.assertEqual(done.returncode, 4, done.stdout)
             self.assertIn("there are", done.stdout)
 

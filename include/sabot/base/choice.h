@@ -3,6 +3,7 @@
 
 #include "sabot/base/registry.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,7 @@ auto choose(const std::string &name,
   if (entry.declare)
     entry.declare(prm);
   for (const auto &value : values)
-    if (!prm.is_declared(value.first) || !prm.set(value.first, value.second))
+    if (!prm.set(value.first, value.second))
       throw InputError(value.first, "cannot be \"" + value.second + "\" for " +
                                         Product::kind + " " + name);
   return entry.make(prm, name);
@@ -51,6 +52,7 @@ void refuse_unused(const Parameters &prm, const std::string &path,
   const std::string chosen = prm.get(selector);
   Parameters own;
   Registry<Product>::declare_entries(own, chosen);
+  const std::vector<std::string> used = own.entry_names();
   for (const auto &other : Registry<Product>::entries())
   {
     if (other.name == chosen || !other.declare)
@@ -58,7 +60,7 @@ void refuse_unused(const Parameters &prm, const std::string &path,
     Parameters theirs;
     other.declare(theirs);
     for (const std::string &entry : theirs.entry_names())
-      if (!own.is_declared(entry) &&
+      if (std::find(used.begin(), used.end(), entry) == used.end() &&
           !same_value(prm.get(entry), theirs.get(entry)))
         throw InputError(path + "/" + entry, "has no effect with " + selector +
                                                  " = " + chosen +

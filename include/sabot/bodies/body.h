@@ -23,6 +23,10 @@ struct StableStep
   GlobalIndex item = -1;                          // node, particle or cell
 };
 
+/** Flow stress of what never yields [Pa]: beyond all stresses, but finite, so
+    that means over nodes with weights of zero stay defined. */
+constexpr double never_yields = 1e300;
+
 /** A plane across an axis on which a model is cut. */
 struct SymmetryPlane
 {
@@ -84,7 +88,7 @@ struct Fragment
 {
   GlobalIndex n_particles = 0;
   double mass = 0.;                 // [kg]
-  std::array<double, 3> velocity{}; // of the centre of mass [m/s]
+  std::array<double, 3> velocity{}; // of the center of mass [m/s]
 };
 
 /** Damage and flow at one place of a body's material. */
@@ -202,11 +206,11 @@ public:
   virtual unsigned int contact_surface_version() const { return 0; }
 
   /** Present uniaxial flow stress [Pa] of the surface at some owned nodes of
-      it; 1e300: does not yield. */
+      it; never_yields where that is so. */
   virtual std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const
   {
-    return std::vector<double>(some_nodes.size(), 1e300);
+    return std::vector<double>(some_nodes.size(), never_yields);
   }
 
   // What only some bodies are: null for the others.

@@ -35,7 +35,7 @@ void add_field(std::vector<OutputField> &fields, const std::string &name,
   fields.push_back(std::move(field));
 }
 
-/** Mass, velocity of the centre of mass, kinetic energy and bounding box of
+/** Mass, velocity of the center of mass, kinetic energy and bounding box of
     all owned nodes that are not left out ([n_owned], may be null). Collective,
     the same for every number of ranks. */
 BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,

@@ -141,7 +141,7 @@ private:
   ContactPoints points;            // of the step
   std::vector<TouchedNode> touched; // by the points, one after the other
   unsigned int surface_version = 0; // sum over bodies at the last search
-  double skin = 0., travelled = 0.; // [m]
+  double skin = 0., traveled = 0.;  // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
   NodeKey initial_node{-1, 0, -1};
 };

@@ -24,7 +24,7 @@ struct TouchedNode
  *
  * with the cubic spline phi, the nodes' areas A_a and c0, c1 such that sum w =
  * 1 and sum w (x_a - c) = 0 (patch_weights()). Mirror images in planes of
- * symmetry stand for the half that is not modelled.
+ * symmetry stand for the half that is not modeled.
  */
 class ContactPatch
 {

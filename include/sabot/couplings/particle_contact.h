@@ -116,7 +116,7 @@ private:
   HaloForces forces;
   double skin = 0.;      // [m], by which candidates may approach
   double allowance = 0.; // [m], of travel until the next search
-  double travelled = 0.; // [m]
+  double traveled = 0.;  // [m]
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
   std::size_t n_deep = 0; // nodes so far inside that nothing holds them
 };

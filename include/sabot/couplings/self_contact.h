@@ -89,7 +89,7 @@ private:
   std::vector<double> softening; // per slot, of the stiffness
   HaloForces forces;
   ContactPoints points; // of the step
-  double skin = 0., travelled = 0.;
+  double skin = 0., traveled = 0.;
   std::size_t n_loose = 0;
 };
 } // namespace sabot

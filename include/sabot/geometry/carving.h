@@ -11,7 +11,7 @@ namespace sabot
     particles lies, in the reference configuration. */
 struct ZoneShape
 {
-  std::array<double, 3> centre{{0., 0., 0.}}; // [m]
+  std::array<double, 3> center{{0., 0., 0.}}; // [m]
   std::array<double, 3> size{{0., 0., 0.}};   // [m], of a cylinder's bounds
   int axis = -1;                              // of a cylinder; -1: a box
 
@@ -40,7 +40,7 @@ struct CarvedMesh
 };
 
 /**
- * Cuts a mesh along its faces, not along the shape: cells whose centre (mean of
+ * Cuts a mesh along its faces, not along the shape: cells whose center (mean of
  * the corners) lies in @p shape form the zone. Nodes and cells keep
  * their order; faces between the parts become boundary faces of both, with the
  * first boundary id that @p n_named and the mesh leave free. Throws InputError

@@ -17,13 +17,13 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
     cells of the cell size, which may be left out for particles. */
 struct BoxSpecification
 {
-  std::array<double, 3> centre{{0., 0., 0.}}, size{{0., 0., 0.}}; // [m]
+  std::array<double, 3> center{{0., 0., 0.}}, size{{0., 0., 0.}}; // [m]
   double cell_size = 0.;                                          // [m]
   double coarsest_cell_size = unbounded;                          // [m]
   double growth_ratio = 1.;
   bool has_zone = false;
   bool zone_is_cut = true; // else it is only where the cells are fine
-  std::array<double, 3> zone_centre{{0., 0., 0.}}, zone_size{{0., 0., 0.}};
+  std::array<double, 3> zone_center{{0., 0., 0.}}, zone_size{{0., 0., 0.}};
   std::string zone_path; // of the zone's body, for messages
 };
 
@@ -54,13 +54,13 @@ struct CylinderGrading
  * outside the circle by a fraction pi^2/(3 n^2) of r for n rim cells.
  * Boundary ids: 0 lower end, 1 upper end, 2 side. @p axis: 0, 1, 2.
  * @p n_cuts: 1 keeps the half where the coordinate after the axis is not less
- * than the centre's, 2 the quarter where the one after that is not, either; the
+ * than the center's, 2 the quarter where the one after that is not, either; the
  * cut planes have the boundary ids 3 and 4. @p grading: a smaller core, or an
  * inner cylinder, with rings that grow outwards.
  */
 HexMesh make_cylinder(const double radius, const double length,
                       const unsigned int axis,
-                      const std::array<double, 3> &centre,
+                      const std::array<double, 3> &center,
                       const double cell_size, const unsigned int n_cuts = 0,
                       const CylinderGrading &grading = CylinderGrading());
 

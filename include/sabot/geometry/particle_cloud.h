@@ -34,7 +34,7 @@ struct ParticleCloud
   std::vector<int> face_axis{0, 0, 1, 1, 2, 2};
   /**
    * Size and directions of the lattice around each particle [m]: the symmetric
-   * matrix S that maps the unit ball to the ellipsoid through the neighbours a
+   * matrix S that maps the unit ball to the ellipsoid through the neighbors a
    * cell away. Empty: diag(spacing) for all.
    */
   AlignedVector<Mat> shape;
@@ -46,22 +46,22 @@ struct ParticleCloud
  * The spacing is the nearest that divides the size. Volumes are the lattice
  * cells' shares (half on faces, a quarter on edges), so mass is exact.
  */
-ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
+ParticleCloud make_box_cloud(const std::array<double, 3> &center,
                              const std::array<double, 3> &size,
                              const std::array<double, 3> &nodal_spacing);
-ParticleCloud make_box_cloud(const std::array<double, 3> &centre,
+ParticleCloud make_box_cloud(const std::array<double, 3> &center,
                              const std::array<double, 3> &size,
                              const double nodal_spacing);
 
 /**
  * Particles on the nodes of hexahedra. Volumes are the integrals of the nodes'
  * trilinear functions (2x2x2 Gauss points, exact): they sum to the mesh's
- * volume and have its centre of mass. With the edge vectors a, b, c of a cell
+ * volume and have its center of mass. With the edge vectors a, b, c of a cell
  * (means of its four parallel edges) a particle's shape is
  *   S^2 = mean over the cells around of a a^T + b b^T + c c^T,
  * for which |S^-1 dX| counts lattice steps in any lattice of parallelepipeds,
  * next to its faces, too: kernels of S times the support see as many
- * neighbours there as in a cubic lattice.
+ * neighbors there as in a cubic lattice.
  */
 ParticleCloud make_mesh_cloud(const HexMesh &mesh);
 

@@ -10,10 +10,10 @@ namespace sabot
  * to the exact volume 4/3 pi r^3, so that the mass
  * is exact; the nodes of the surface then lie a little outside of the sphere.
  * Boundary id 0 everywhere.
- * @param centre     [m]
+ * @param center     [m]
  * @param cell_size  of the cells in the middle, about [m]
  */
-HexMesh make_sphere(const double radius, const std::array<double, 3> &centre,
+HexMesh make_sphere(const double radius, const std::array<double, 3> &center,
                     const double cell_size);
 
 /** Profiles of a nose of the length L on a shaft of the radius R: the radius r
@@ -33,7 +33,7 @@ struct ProjectileSpecification
   unsigned int axis = 2;        // 0, 1, 2
   bool towards_positive = true; // where the nose points
   /** Middle of the whole length, on the axis [m]. */
-  std::array<double, 3> centre{{0., 0., 0.}};
+  std::array<double, 3> center{{0., 0., 0.}};
   double cell_size = 0.; // [m]
 };
 

@@ -43,7 +43,7 @@ struct ShapeRequest
  * A shape of bodies: entries, checks and mesh of one choice of "Geometry". The
  * same for deformable bodies of cells or particles and for rigid ones. Without
  * state: every function gets the parameters with the body's subsection
- * entered. Lengths are in metres, all results the same on every rank, and no
+ * entered. Lengths are in meters, all results the same on every rank, and no
  * function is collective.
  *
  * A new shape is one file in source/geometry/shapes/, with this class, a static

@@ -56,7 +56,7 @@ inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
 }
 
 /** Where a point stands with respect to a face; lengths in that of the points,
-    usually metres in the present configuration. */
+    usually meters in the present configuration. */
 struct FaceProjection
 {
   /** To the closest point; infinite while there is none. */
@@ -76,15 +76,15 @@ struct FaceProjection
 inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
                        const double distance)
 {
-  const Vec centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  const Vec center = 0.25 * (x[0] + x[1] + x[2] + x[3]);
   double radius_square = 0.;
   for (const Vec corner : x)
-    radius_square = std::max(radius_square, norm_square(corner - centre));
-  return norm(p - centre) > distance + std::sqrt(radius_square);
+    radius_square = std::max(radius_square, norm_square(corner - center));
+  return norm(p - center) > distance + std::sqrt(radius_square);
 }
 
 /**
- * Closest point of a quadrilateral, taken as four triangles around its centre,
+ * Closest point of a quadrilateral, taken as four triangles around its center,
  * so that warped faces have no crack and no preferred diagonal.
  * The sign of the gap comes from the triangle's normal; the direction is the
  * normal where the foot lies inside the triangle, and the offset itself on
@@ -95,16 +95,16 @@ inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
 inline FaceProjection project_on_face(const Vec p, const std::array<Vec, 4> &x)
 {
   FaceProjection best;
-  const Vec centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  const Vec center = 0.25 * (x[0] + x[1] + x[2] + x[3]);
   for (int a = 0; a < 4; ++a)
   {
     const int b = (a + 1) & 3;
-    const auto w = closest_on_triangle(p, x[a], x[b], centre);
-    const Vec offset = p - (w[0] * x[a] + w[1] * x[b] + w[2] * centre);
+    const auto w = closest_on_triangle(p, x[a], x[b], center);
+    const Vec offset = p - (w[0] * x[a] + w[1] * x[b] + w[2] * center);
     const double d2 = norm_square(offset);
     if (d2 > best.distance_square * (1. + 1e-12))
       continue;
-    const Vec area = cross(x[b] - x[a], centre - x[a]);
+    const Vec area = cross(x[b] - x[a], center - x[a]);
     const double size = norm(area);
     if (size == 0.)
       continue;

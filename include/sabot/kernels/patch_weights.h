@@ -8,10 +8,10 @@
 namespace sabot
 {
 /**
- * Weights that spread a force at @p centre over nearby nodes of a surface as a
+ * Weights that spread a force at @p center over nearby nodes of a surface as a
  * smooth pressure: w_a = phi(|x_a - c|/R) A_a (c_0 + c_1 xi_a + c_2 eta_a),
  * with the cubic spline phi, the nodes' areas A_a and tangential offsets xi,
- * eta from the centre, such that sum w = 1 and sum w xi = sum w eta = 0 (no
+ * eta from the center, such that sum w = 1 and sum w xi = sum w eta = 0 (no
  * moment about the normal's plane).
  * @param point   x_a [m]
  * @param area    A_a [m^2], parallel to point
@@ -23,7 +23,7 @@ namespace sabot
  * more than a tenth of the force; the weights are then of no use.
  */
 bool patch_weights(const std::vector<Vec> &point,
-                   const std::vector<double> &area, const Vec centre,
+                   const std::vector<double> &area, const Vec center,
                    const Vec normal, const double radius,
                    std::vector<double> &weight);
 } // namespace sabot

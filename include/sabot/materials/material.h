@@ -38,7 +38,7 @@ struct MaterialBatch
   double *state(const std::size_t i) const { return states[i]; }
   double *const *states; // the material's own, n_states() arrays
   /** Square of a stress that a body carries besides @p stress and that shares
-      its yield condition [Pa^2], e.g. of the stabilisation: the yield function
+      its yield condition [Pa^2], e.g. of the stabilization: the yield function
       sees q = sqrt(3/2 s:s + extra_square) and both are returned by theta. */
   const double *extra_square;
   /** out: factor theta by which the return scaled the trial deviator, 1 where

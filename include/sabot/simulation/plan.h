@@ -63,7 +63,7 @@ struct CostPlan
   struct Item
   {
     std::string body, kind; // "cells" or "particles"
-    double n, neighbours;   // mean, initial; 0 for cells
+    double n, neighbors;    // mean, initial; 0 for cells
   };
   std::vector<Item> items;
   double first_stable_step, mean_step; // [s]

@@ -40,7 +40,7 @@ struct ZoneVerdict
       outside the zone strained that much. */
   double plastic_distance, bond_distance;
   /** Smallest box, of a cylinder the bounds of the smallest cylinder, with the
-      same centre line that leaves two spacings between
+      same center line that leaves two spacings between
       them and the tie, what it holds, and what it would have saved. */
   struct Box
   {

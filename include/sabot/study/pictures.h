@@ -21,7 +21,7 @@ struct PictureArguments
   std::string times;    // with units, separated by commas; the last
   std::string normal;   // x, y or z
   std::string position; // of the plane along its normal
-  std::string range;    // of the colours: low, high (SI)
+  std::string range;    // of the colors: low, high (SI)
   std::string window;   // lengths: right low, high, up low, high
 };
 

@@ -45,7 +45,7 @@ void RigidOptions::declare_parameters(Parameters &prm)
                     "velocities stay, and their work counts as external.");
   prm.declare_entry("Angular velocity", "0 1/s, 0 1/s, 0 1/s",
                     quantities(Dimension::strain_rate, 3, 3, -1e8, 1e8),
-                    "Rotation vector per time at time 0, about the centre of "
+                    "Rotation vector per time at time 0, about the center of "
                     "mass.");
 }
 
@@ -70,16 +70,16 @@ RigidBody::RigidBody(const std::string &name, const int id, HexMesh m,
       node_masses[a] += 0.125 * this->material->density() * mesh.volume[c];
   const auto point = [&](const std::size_t a)
   { return vec(mesh.nodes[a][0], mesh.nodes[a][1], mesh.nodes[a][2]); };
-  centre = Vec{};
+  center = Vec{};
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
   {
     mass += node_masses[a];
-    centre += node_masses[a] * point(a);
+    center += node_masses[a] * point(a);
   }
-  centre /= broadcast(mass);
+  center /= broadcast(mass);
   inertia = Mat::zero();
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
-    inertia = inertia + point_inertia(node_masses[a], point(a) - centre);
+    inertia = inertia + point_inertia(node_masses[a], point(a) - center);
   inverse_inertia = inverse(inertia);
   const auto &v = options.initial_velocity, &w = options.angular_velocity;
   momentum = mass * vec(v[0], v[1], v[2]);
@@ -104,7 +104,7 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     const auto &p = mesh.nodes[ids[i]];
     nodal_state.reference_position[i] = nodal_state.position[i] =
         vec(p[0], p[1], p[2]);
-    arm[i] = nodal_state.position[i] - centre;
+    arm[i] = nodal_state.position[i] - center;
     nodal_state.force[i] = Vec{};
     nodal_state.lumped_mass[i] = nodal_state.inertia[i] = node_masses[ids[i]];
   }
@@ -185,7 +185,7 @@ void RigidBody::impose_velocities(const double)
       if (norm_square(change) == 0.)
         continue;
       const Vec impulse = nodal_state.inertia[i] * change,
-                turn = cross(nodal_state.position[i] - centre, impulse);
+                turn = cross(nodal_state.position[i] - center, impulse);
       for (int d = 0; d < 3; ++d)
       {
         sums[d].add(impulse[d]);
@@ -212,7 +212,7 @@ void RigidBody::accumulate_work(const double half_dt)
 
 void RigidBody::compute_forces(const double, const double dt)
 {
-  centre += (dt / mass) * momentum;
+  center += (dt / mass) * momentum;
   Vec omega = spin(matrix(quaternion));
   for (int i = 0; i < 4 && !options.is_prescribed; ++i)
     omega = spin(matrix(product(rotation_by(0.5 * dt * omega), quaternion)));
@@ -225,7 +225,7 @@ void RigidBody::compute_forces(const double, const double dt)
   const Mat rotation = matrix(quaternion);
   for (std::size_t i = 0; i < nodal_state.size(); ++i)
   {
-    nodal_state.position[i] = centre + rotation * arm[i];
+    nodal_state.position[i] = center + rotation * arm[i];
     nodal_state.force[i] = Vec{};
   }
   set_velocities();
@@ -309,7 +309,7 @@ void RigidBody::visit_state(StateVisitor &visitor)
   visitor.visit_array("inertia", nodal_state.inertia);
   visitor.visit_array("rigid velocity", rigid_velocity);
   visitor.visit_array("quaternion", quaternion);
-  visitor.visit_value("centre", centre);
+  visitor.visit_value("center", center);
   visitor.visit_value("momentum", momentum);
   visitor.visit_value("angular momentum", angular_momentum);
   visitor.visit_value("external work", work);

@@ -1,4 +1,4 @@
-// Neighbours of particles: search, compressed list, removal, ghosts' bonds.
+// Neighbors of particles: search, compressed list, removal, ghosts' bonds.
 #include "sabot/bodies/spg/bond_list.h"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ BondList::rows_within(const std::vector<std::array<double, 3>> &points,
                       const std::vector<GlobalIndex> &owned_ids)
 {
   const Buckets buckets(points, spacing, support);
-  // A neighbour exactly at the support's edge has no weight.
+  // A neighbor exactly at the support's edge has no weight.
   const double reach = support * (1. - 1e-9);
   Rows rows(owned_ids.size());
   for (std::size_t row = 0; row < owned_ids.size(); ++row)
@@ -139,13 +139,13 @@ BondList::rows_in_kernels(const std::vector<std::array<double, 3>> &points,
                                                   std::abs(H.row[d][2])
                                             : norm(H.row[d]));
   }
-  const auto distance = [&](const std::size_t centre, const Vec dX)
+  const auto distance = [&](const std::size_t center, const Vec dX)
   {
-    const Vec xi = to_kernel[one_for_all ? 0 : centre] * dX;
+    const Vec xi = to_kernel[one_for_all ? 0 : center] * dX;
     return cubic ? std::max({std::abs(xi[0]), std::abs(xi[1]), std::abs(xi[2])})
                  : norm(xi);
   };
-  // A neighbour exactly at the kernel's edge has no weight.
+  // A neighbor exactly at the kernel's edge has no weight.
   constexpr double edge = 1. - 1e-9, coincident = 5e-7;
   Rows rows(owned_ids.size());
   const Buckets buckets(points, extent, 1.);

@@ -1,4 +1,4 @@
-// Search for new neighbours among all particles of the body.
+// Search for new neighbors among all particles of the body.
 #include "sabot/bodies/spg/neighbor_search.h"
 
 #include "sabot/base/nodal_state.h"
@@ -54,12 +54,12 @@ std::vector<Item> gather_items(const NodalState &nodes,
   return all;
 }
 
-bool is_in_kernel(const Item &centre, const Vec dX, const bool cubic)
+bool is_in_kernel(const Item &center, const Vec dX, const bool cubic)
 {
   double square = 0., largest = 0.;
   for (int d = 0; d < 3; ++d)
   {
-    const double *const row = &centre.to_kernel[3 * d];
+    const double *const row = &center.to_kernel[3 * d];
     const double xi = row[0] * dX[0] + row[1] * dX[1] + row[2] * dX[2];
     square += xi * xi;
     largest = std::max(largest, xi * xi);

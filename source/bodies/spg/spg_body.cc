@@ -2,6 +2,7 @@
 // couplings.
 #include "sabot/bodies/spg/spg_body.h"
 
+#include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/neighbor_search.h"
 
 #include <algorithm>
@@ -42,6 +43,28 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                      "with temperature, for example 167 W/m/K");
 }
 
+namespace
+{
+/** Owned nodes at their places of the start, with masses rho V. */
+void start_nodes(const std::vector<std::array<double, 3>> &position,
+                 const std::vector<GlobalIndex> &ids,
+                 const std::vector<double> &volume, const double density,
+                 const std::array<double, 3> &velocity, NodalState &nodes)
+{
+  nodes.resize(ids.size());
+  nodes.n_owned = ids.size();
+  nodes.global_id = ids;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const auto &p = position[ids[i]];
+    nodes.reference_position[i] = nodes.position[i] = vec(p[0], p[1], p[2]);
+    nodes.velocity[i] = vec(velocity[0], velocity[1], velocity[2]);
+    nodes.force[i] = Vec{};
+    nodes.lumped_mass[i] = nodes.inertia[i] = density * volume[i];
+  }
+}
+} // namespace
+
 void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
 {
   communicator = comm;
@@ -65,23 +88,14 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     throw InputError("Bodies/" + name, e.what());
   }
   const Material &law = points.law();
-  nodal_state.resize(n);
-  nodal_state.n_owned = n;
-  nodal_state.global_id = ids;
   std::vector<double> volume(n), capacity(n);
-  const auto &v = options.initial_velocity;
   for (std::size_t i = 0; i < n; ++i)
   {
-    const auto &p = cloud.position[ids[i]];
     volume[i] = cloud.volume[ids[i]];
-    nodal_state.reference_position[i] = nodal_state.position[i] =
-        vec(p[0], p[1], p[2]);
-    nodal_state.velocity[i] = vec(v[0], v[1], v[2]);
-    nodal_state.force[i] = Vec{};
-    nodal_state.lumped_mass[i] = nodal_state.inertia[i] =
-        law.density() * volume[i];
     capacity[i] = volume[i] * (law.density() * law.specific_heat());
   }
+  start_nodes(cloud.position, ids, volume, law.density(),
+              options.initial_velocity, nodal_state);
   surface.distribute(cloud, ids, options.clamped_faces, constraints);
   kernel.distribute(kernels, ids);
   cloud = ParticleCloud();
@@ -218,34 +232,6 @@ void SpgBody::update_functions()
                        stabilization->second_derivatives());
   stabilization->follow_functions(parts);
 }
-
-namespace
-{
-/** What a particle that lost a direction just now cannot bear is cut; what it
-    stored is lost with it. */
-void release_stress(SpgParts &body, const std::size_t i)
-{
-  const double K = body.points.law().bulk_modulus(),
-               G = body.points.law().shear_modulus();
-  const auto elastic_energy = [&](const double s[6])
-  {
-    const double mean = (s[0] + s[1] + s[2]) / 3.;
-    double square = 0.;
-    for (int c = 0; c < 3; ++c)
-      square += (s[c] - mean) * (s[c] - mean) + 2. * s[3 + c] * s[3 + c];
-    return mean * mean / (2. * K) + square / (4. * G);
-  };
-  double s[6];
-  for (int c = 0; c < 6; ++c)
-    s[c] = body.points.stress_row(c)[i];
-  const double before = elastic_energy(s);
-  body.residual_strength.release(s);
-  for (int c = 0; c < 6; ++c)
-    body.points.stress_row(c)[i] = s[c];
-  body.failure.loss[i] +=
-      body.fields.kernel_reference_volume[i] * (before - elastic_energy(s));
-}
-} // namespace
 
 void SpgBody::update_kernel(const unsigned int step)
 {

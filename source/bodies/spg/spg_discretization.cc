@@ -39,7 +39,7 @@ public:
                          faces + ".");
     prm.declare_knob("Nodal spacing", "1 mm",
                      quantities(Dimension::length, 1, 3, 1e-9, 1e2),
-                     "Distance of neighbouring particles; of a box the "
+                     "Distance of neighboring particles; of a box the "
                      "nearest value that divides each edge, one for all or "
                      "three, one per axis. In other shapes particles are the "
                      "nodes of hexahedra with cells of this size.");

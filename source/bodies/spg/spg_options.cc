@@ -73,22 +73,22 @@ void SpgOptions::declare_parameters(Parameters &prm)
       one_of("least squares|convex exponential|convex arctangent"),
       "First-order functions of the particles. least squares: linearly "
       "corrected, the unknowns are the particles' positions; convex: "
-      "generalised meshfree functions (Wu, Park & Chen 2011) with exponential "
-      "or inverse-tangent basis, the unknowns are generalised positions.");
+      "generalized meshfree functions (Wu, Park & Chen 2011) with exponential "
+      "or inverse-tangent basis, the unknowns are generalized positions.");
   prm.declare_knob("Kernel shape", "spherical", one_of("spherical|tensor"),
                    "Cubic spline of the radius, or product of cubic splines "
                    "along the axes of the kernel.");
-  prm.declare_knob("Normalised support size", "2.0",
+  prm.declare_knob("Normalized support size", "2.0",
                    quantity(Dimension::none, 1.0, 2.8),
                    "Kernel radius (tensor: half width) over nodal spacing. "
                    "Spherical least squares needs 1.8 or more.");
   Registry<Stabilization>::declare_knob(
-      prm, "Stabilisation", standard_form,
+      prm, "Stabilization", standard_form,
       "What keeps the sawtooth modes of direct nodal integration under "
       "control.");
   Registry<Stabilization>::declare_entries(prm, "");
   prm.declare_knob(
-      "Neighbour policy", "Lagrangian list",
+      "Neighbor policy", "Lagrangian list",
       one_of("Lagrangian list|search undamaged|search"),
       "Lagrangian list: bonds of the start, only ever removed; search "
       "undamaged: kernel updates add bonds between particles without a failed "
@@ -145,10 +145,10 @@ void check_support(const SpgOptions &o, const Parameters &prm,
                                                 : 1.2;
   if (o.normalized_support < least)
     throw InputError(
-        path + "/Normalised support size",
-        "is " + prm.get("Normalised support size") +
+        path + "/Normalized support size",
+        "is " + prm.get("Normalized support size") +
             "; this approximation and kernel shape need at least " +
-            std::to_string(least) + ", else particles have too few neighbours");
+            std::to_string(least) + ", else particles have too few neighbors");
 }
 } // namespace
 
@@ -160,9 +160,9 @@ SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
       {"least squares", "convex exponential", "convex arctangent"});
   o.kernel_shape =
       choice<KernelShape>(prm, "Kernel shape", {"spherical", "tensor"});
-  o.normalized_support = get_quantity(prm, "Normalised support size");
+  o.normalized_support = get_quantity(prm, "Normalized support size");
   o.neighbor_policy =
-      choice<NeighborPolicy>(prm, "Neighbour policy",
+      choice<NeighborPolicy>(prm, "Neighbor policy",
                              {"Lagrangian list", "search undamaged", "search"});
   o.kernel_update_interval = prm.get_integer("Kernel update interval");
   o.kernel_update_strain = get_quantity(prm, "Kernel update strain");
@@ -173,14 +173,14 @@ SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
   o.critical_stretch = get_quantity(prm, "Critical stretch");
   o.residual_strength =
       chosen<ResidualStrength>(prm, path, "Failed metal carries");
-  o.stabilization = chosen<Stabilization>(prm, path, "Stabilisation");
+  o.stabilization = chosen<Stabilization>(prm, path, "Stabilization");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
   o.conducts_heat = prm.get_bool("Heat conduction");
   o.conduction_interval = get_quantity(prm, "Conduction interval");
   if (!o.stores_gradients() && o.stabilization()->needs_second_derivatives())
-    throw InputError(path + "/Stabilisation",
-                     prm.get("Stabilisation") +
+    throw InputError(path + "/Stabilization",
+                     prm.get("Stabilization") +
                          " needs second derivatives of the shape functions: "
                          "set Approximation = convex exponential");
   check_support(o, prm, path);

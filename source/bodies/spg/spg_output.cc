@@ -48,7 +48,7 @@ BodyMeasures SpgBody::measure() const
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   BodyMeasures measures = measure_nodes(nodal_state, communicator);
   measures.internal_energy = internal.value();
-  measures.own.push_back({"stabilisation energy", "J", stabilized.value()});
+  measures.own.push_back({"stabilization energy", "J", stabilized.value()});
   measures.own.push_back({"plastic work", "J", plastic.value()});
   if (options.can_fail())
     measures.own.push_back({"failure energy", "J", lost.value()});
@@ -184,7 +184,7 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
         neighbors.push_back(nodal_state.global_id[bonds.neighbor[b]]);
     }
     visitor.visit_array("row lengths", lengths);
-    visitor.visit_resized("row neighbours", neighbors);
+    visitor.visit_resized("row neighbors", neighbors);
     if (visitor.is_restoring())
     {
       BondList::Rows rows(n);
@@ -198,7 +198,7 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
     }
   }
   visitor.visit_array("bond count", bonds.count);
-  visitor.visit_array("bond neighbour", bonds.neighbor);
+  visitor.visit_array("bond neighbor", bonds.neighbor);
   visitor.visit_array("bond weight", bonds.weight);
   visitor.visit_array("bond scaled weight", bonds.scaled_weight);
   if (visitor.is_restoring())

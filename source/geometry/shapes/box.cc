@@ -33,9 +33,9 @@ public:
         word_or("none", quantities(Dimension::length, 3, 3, 0., 1e3)),
         "Edge lengths of the part of the box that has cells of "
         "the cell size; none: all of it has.");
-    prm.declare_entry("Refined zone centre", "0 mm, 0 mm, 0 mm",
+    prm.declare_entry("Refined zone center", "0 mm, 0 mm, 0 mm",
                       quantities(Dimension::length, 3, 3, -1e3, 1e3),
-                      "Position of its centre.");
+                      "Position of its center.");
   }
 
   std::string face_names() const override { return "-x, +x, -y, +y, -z, +z"; }
@@ -43,14 +43,14 @@ public:
   NamedMesh mesh(const ShapeRequest &request) const override
   {
     BoxSpecification box;
-    box.centre = get_vector(request.prm, "Centre");
+    box.center = get_vector(request.prm, "Center");
     box.size = get_vector(request.prm, "Size");
     box.cell_size = request.cell_size;
     const Carving *const carving = request.carving;
     if (carving != nullptr && !carving->follows_mesh)
     {
       box.has_zone = true;
-      box.zone_centre = carving->shape.centre;
+      box.zone_center = carving->shape.center;
       box.zone_size = carving->shape.size;
       box.zone_path = "Bodies/" + carving->zone;
     }
@@ -66,7 +66,7 @@ public:
   ParticleCloud lattice(const Parameters &prm,
                         const std::array<double, 3> &spacing) const override
   {
-    return make_box_cloud(get_vector(prm, "Centre"), get_vector(prm, "Size"),
+    return make_box_cloud(get_vector(prm, "Center"), get_vector(prm, "Size"),
                           spacing);
   }
 
@@ -74,7 +74,7 @@ public:
                                 const std::string &) const override
   {
     ZoneShape zone;
-    zone.centre = get_vector(prm, "Centre");
+    zone.center = get_vector(prm, "Center");
     zone.size = get_vector(prm, "Size");
     return zone;
   }
@@ -98,7 +98,7 @@ private:
                            "\" is carved from this one already");
     box.has_zone = true;
     box.zone_is_cut = false;
-    box.zone_centre = get_vector(prm, "Refined zone centre");
+    box.zone_center = get_vector(prm, "Refined zone center");
     box.zone_size = refined;
     box.zone_path = request.path;
   }

@@ -27,7 +27,7 @@ public:
     prm.declare_knob("Coarsest cell size", "none", word_or("none", length),
                      "Rings grow up to this thickness.");
     prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
-                     "Part of the cylinder that is modelled: half keeps the "
+                     "Part of the cylinder that is modeled: half keeps the "
                      "positive side of the axis that follows the cylinder's "
                      "(x after z), quarter that of the other one, too. The "
                      "cut planes are called as a box's faces, e.g. -x, -y.");
@@ -49,7 +49,7 @@ public:
       faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
     return {make_cylinder(get_quantity(prm, "Radius"),
                           get_quantity(prm, "Length"), axis,
-                          get_vector(prm, "Centre"), request.cell_size, n_cuts,
+                          get_vector(prm, "Center"), request.cell_size, n_cuts,
                           grading(request)),
             std::move(faces)};
   }
@@ -62,7 +62,7 @@ public:
                        "has no effect: the zone has the cells of the body "
                        "that it is carved from; remove the entry");
     ZoneShape zone;
-    zone.centre = get_vector(prm, "Centre");
+    zone.center = get_vector(prm, "Center");
     zone.axis = axis_of(prm);
     zone.size.fill(2. * get_quantity(prm, "Radius"));
     zone.size[zone.axis] = get_quantity(prm, "Length");
@@ -91,7 +91,7 @@ private:
                        "leaves no room for rings; at most 0.9 of the radius");
     const Carving *const carving = request.carving;
     if (carving == nullptr ||
-        !carving->shape.is_coaxial(axis, get_vector(prm, "Centre")) ||
+        !carving->shape.is_coaxial(axis, get_vector(prm, "Center")) ||
         !(0.5 * carving->shape.size[(axis + 1) % 3] < 0.999 * radius))
       return grading;
     if (grading.core_radius)

@@ -34,7 +34,7 @@ public:
     prm.declare_entry("Mesh file", "", any_text(),
                       "Hexahedra from gmsh (.msh), Abaqus (.inp) or VTK "
                       "(.vtk), looked up beside the parameter file; its origin "
-                      "is put at the centre. Faces are named by the file's "
+                      "is put at the center. Faces are named by the file's "
                       "boundary ids.");
     prm.declare_entry("Mesh unit", "1 m",
                       quantity(Dimension::length, 1e-9, 1e3),
@@ -57,7 +57,7 @@ public:
     prm.set("Mesh file", resolved); // for the expanded parameters
     NamedMesh made;
     made.mesh = read_mesh(resolved, get_quantity(prm, "Mesh unit"),
-                          get_vector(prm, "Centre"), material_id(prm), entry);
+                          get_vector(prm, "Center"), material_id(prm), entry);
     for (const unsigned int id : made.mesh.boundary_id)
       while (made.faces.size() <= id)
         made.faces.push_back(std::to_string(made.faces.size()));

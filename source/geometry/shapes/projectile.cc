@@ -42,7 +42,7 @@ public:
                        "use a spherical nose or a longer one");
     projectile.axis = axis.back() - 'x';
     projectile.towards_positive = axis[0] != '-';
-    projectile.centre = get_vector(prm, "Centre");
+    projectile.center = get_vector(prm, "Center");
     projectile.cell_size = request.cell_size;
     return {make_projectile(projectile), {"end", "side"}};
   }

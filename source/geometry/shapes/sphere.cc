@@ -20,7 +20,7 @@ public:
   NamedMesh mesh(const ShapeRequest &request) const override
   {
     return {make_sphere(get_quantity(request.prm, "Radius"),
-                        get_vector(request.prm, "Centre"), request.cell_size),
+                        get_vector(request.prm, "Center"), request.cell_size),
             {"surface"}};
   }
 };

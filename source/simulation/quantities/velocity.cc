@@ -25,7 +25,7 @@ private:
 };
 
 const Registry<QuantityOfInterest>::Add
-    registered({"velocity", "of the body's centre of mass along the direction.",
+    registered({"velocity", "of the body's center of mass along the direction.",
                 declare_directed_quantity, [](const QuantityRequest &request) {
                   return std::make_unique<Velocity>(request);
                 }});

@@ -30,9 +30,9 @@ struct RigidOptions
 
 /**
  * A rigid body with the nodes and the surface of a hexahedral mesh. Mass,
- * centre and inertia are those of the nodes' lumped masses. Its state is the
- * centre c, the rotation Q, the momentum p and the spatial angular momentum l
- * about the centre:
+ * center and inertia are those of the nodes' lumped masses. Its state is the
+ * center c, the rotation Q, the momentum p and the spatial angular momentum l
+ * about the center:
  *
  *   p += sum f dt/2, l += sum r x f dt/2 (kicks),
  *   c += dt p/m, Q <- exp(dt omega) Q, omega = Qm I^-1 Qm^T l,
@@ -91,7 +91,7 @@ public:
 
   // For verification problems.
   double total_mass() const { return mass; }
-  /** About the centre, in the initial frame [kg m^2]. */
+  /** About the center, in the initial frame [kg m^2]. */
   const Mat &inertia_tensor() const { return inertia; }
 
 private:
@@ -120,7 +120,7 @@ private:
   AlignedVector<Vec> arm;          // of all local nodes, initial frame [m]
   std::vector<double> node_masses; // of all nodes, until distribute()
   // The same on every rank
-  Vec centre, momentum, angular_momentum;
+  Vec center, momentum, angular_momentum;
   std::array<double, 4> quaternion{{1., 0., 0., 0.}};
   AlignedVector<Vec> rigid_velocity; // of owned nodes, before the kick
   ExactSum work;

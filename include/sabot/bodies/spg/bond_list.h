@@ -13,7 +13,7 @@ namespace sabot
 {
 /**
  * The bonds of the owned particles as one compressed list, each row sorted by
- * the global number of the neighbour. A bond is stored from both of its ends;
+ * the global number of the neighbor. A bond is stored from both of its ends;
  * reverse[] leads from one to the other. Rows only get shorter, unless
  * connect() takes over new ones. What others keep per bond follows by carry()
  * after connect() and remove().
@@ -21,7 +21,7 @@ namespace sabot
 class BondList
 {
 public:
-  /** Row of neighbours, by global number, of every owned particle. */
+  /** Row of neighbors, by global number, of every owned particle. */
   using Rows = std::vector<std::vector<GlobalIndex>>;
 
   /**

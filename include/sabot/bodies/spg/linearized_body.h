@@ -47,6 +47,9 @@ void apply_linearized_body(const SpgParts &body, Form &form,
                            const AlignedVector<Vec> &motion,
                            AlignedVector<Vec> &force)
 {
+  // First what every particle's strain does to it, then, with that of the
+  // neighbors, their forces: the step itself for a small motion, where it
+  // comes down to sums over bonds with constant factors.
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
   const Approximation &functions = body.approximation;

@@ -16,7 +16,7 @@ namespace sabot
  * The first stage of the SPG step, from positions to what the material and the
  * stabilization need, as kernels of one particle on plain values. They are
  * inlined into one loop over the batch (follow_motion()), which reads each
- * neighbour once.
+ * neighbor once.
  */
 struct MotionViews
 {
@@ -102,7 +102,8 @@ inline double step_as_stiff_as_now(const MotionViews &in, const std::size_t i,
   return step;
 }
 
-/** What the body says of a particle that collapses. */
+/** What the body says of a particle whose incremental volume ratio @p jacobian
+    is next to nothing: its name, number and place. Not in the loop. */
 std::string describe_collapse(const MotionViews &in, const std::size_t i,
                               const double jacobian);
 
@@ -145,6 +146,8 @@ inline void follow_motion(const ParticleRange &range, const MotionViews &in,
     out.relative_gradient[k] = (F - F_old) * F_old_inverse;
     const Mat F_inverse = inverse(F, J);
     out.inverse_transpose[k] = transpose(F_inverse);
+    // F^-T is completed to a stress once that is known; its size also tells how
+    // much stiffer compression has made the particle.
     const double V0 = in.reference_volume[i], V = in.kernel_reference_volume[i];
     out.jacobian[k] = V / V0 * J;
     out.half_volume[k] = 0.25 * V * (J + J_old);

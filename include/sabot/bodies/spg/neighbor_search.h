@@ -13,11 +13,11 @@ struct ParticleFields;
 struct SpgOptions;
 
 /**
- * Rows of neighbours that the kernels of now reach, by the body's policy
+ * Rows of neighbors that the kernels of now reach, by the body's policy
  * (SpgOptions::NeighborPolicy): all pairs of which one lies in the kernel of
  * the other, but those whose bond failed; or the present bonds and those pairs
  * of particles without a failed bond. Every rank gets every particle: new
- * neighbours may come from anywhere. Collective.
+ * neighbors may come from anywhere. Collective.
  */
 BondList::Rows search_neighbors(const SpgOptions &options,
                                 const NodalState &nodes, const BondList &bonds,

@@ -24,13 +24,13 @@ struct ParticleFields
   // Owned particles, then ghosts
   AlignedVector<Vec> kernel_reference_position; // X of the last kernel update
   /** Kernel of each particle as the matrix H whose columns are its semi-axes:
-      a neighbour has weight where |H^-1 dX| < 1 [m]. */
+      a neighbor has weight where |H^-1 dX| < 1 [m]. */
   AlignedVector<Mat> kernel;
   /**
-   * What a particle's stress does to its neighbours, [n] by columns in row[]:
+   * What a particle's stress does to its neighbors, [n] by columns in row[]:
    * Q = V P M^-1 with least squares, V P with stored shape gradients [J, J/m];
    * P the nominal stress. The fourth lane of row[0] carries what a
-   * stabilization wants its neighbours to know, for the bond residual the
+   * stabilization wants its neighbors to know, for the bond residual the
    * stiffness theta k [N m^2/m^2].
    */
   AlignedVector<Mat> generalized_stress;

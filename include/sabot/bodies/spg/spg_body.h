@@ -27,7 +27,7 @@ namespace sabot
  * Particles with first-order meshfree approximation, direct nodal integration,
  * stabilization, an adaptive anisotropic Lagrangian kernel and irreversible
  * bond failure. Derivation: doc/theory-spg.md. With N a particle, J its
- * neighbours, X the configuration of the last kernel update, dX = X_J - X_N,
+ * neighbors, X the configuration of the last kernel update, dX = X_J - X_N,
  * dx likewise now, g_NJ the gradient of J's function at N:
  *
  *   F_N = 1 + sum (dx - dX) (x) g_NJ,
@@ -37,7 +37,7 @@ namespace sabot
  * Q_N = V_N P_N M_N^-1 simply f_N = sum_J phi (Q_N + Q_J) dX.
  *
  * The body composes rooms of one idea each (SpgParts); the step itself stands
- * in spg_step.h. Every particle gathers its own force, neighbours in global
+ * in spg_step.h. Every particle gathers its own force, neighbors in global
  * order, so results do not depend on the number of ranks.
  */
 class SpgBody : public Body
@@ -125,7 +125,7 @@ public:
   }
 
 private:
-  /** Number ghosts and bonds by these rows of neighbours; everything that
+  /** Number ghosts and bonds by these rows of neighbors; everything that
       belongs to them follows. Collective. */
   void renumber(const BondList::Rows &rows);
   /** Functions of the present kernels, and what follows from them. */
@@ -144,7 +144,7 @@ private:
   const SpgOptions options;
   MPI_Comm communicator = MPI_COMM_SELF;
   const GlobalIndex n_global;
-  std::vector<int> rank_of; // of every particle, for new neighbours
+  std::vector<int> rank_of; // of every particle, for new neighbors
   GhostExchange node_exchange;
   BondList bonds;
   VelocityConstraints constraints; // symmetry planes, clamped faces

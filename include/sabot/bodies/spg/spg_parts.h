@@ -37,10 +37,16 @@ struct ParticleRange
 /** What the stages of the SPG step hand on, of one batch. */
 struct StepWork : PointStepArrays<spg_batch_size>
 {
+  // Beside strain and spin increments, volume ratio, half of the mean volume
+  // and viscous pressure (follow_motion) and what the return left (law):
   /** Square of the stabilization's stress [Pa^2]; see MaterialBatch. */
   double extra_square[spg_batch_size] = {};
-  Mat relative_gradient[spg_batch_size]; // F_new F_old^-1 - 1
-  Mat inverse_transpose[spg_batch_size]; // F^-T, F incremental
+  /** F_new F_old^-1 - 1: how the particle's neighborhood moves in this step,
+      by which residuals and higher gradients follow. */
+  Mat relative_gradient[spg_batch_size];
+  /** F^-T of the incremental F: V sigma F^-T is the nominal stress by which
+      forces act on the kernel's reference configuration. */
+  Mat inverse_transpose[spg_batch_size];
 };
 
 /** What the SPG step finds out about all owned particles on the way. */
@@ -66,16 +72,18 @@ struct StepWatch
  */
 struct SpgParts
 {
-  const std::string &name;
+  const std::string &name; // of the body, for messages
   const SpgOptions &options;
+  /** Positions (with ghosts, up to date when forces are asked for), velocities,
+      masses; forces of owned nodes are the step's result. */
   NodalState &nodes;
   const GhostExchange &exchange; // of particles
-  BondList &bonds;
-  ParticleFields &fields;
-  MaterialPoints &points;
+  BondList &bonds;        // neighbors of owned particles, symmetric weights
+  ParticleFields &fields; // deformation and kernels
+  MaterialPoints &points; // stress and state, one point a particle
   const LagrangianKernel &kernel;
-  const Approximation &approximation;
-  BondFailure &failure;
+  const Approximation &approximation; // moments or stored gradients
+  BondFailure &failure;               // failed bonds and what they let go
   ResidualStrength &residual_strength;
   const SpgStableStep &stable_step;
   const VelocityConstraints &constraints;

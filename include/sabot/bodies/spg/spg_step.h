@@ -21,7 +21,7 @@ MotionViews motion_views(SpgParts &body, const double dt);
 void update_stress(const ParticleRange &range, SpgParts &body, const double dt);
 
 /**
- * Fourth stage: what the stress of a particle does to its neighbours, with
+ * Fourth stage: what the stress of a particle does to its neighbors, with
  * sigma - q 1 and what the form adds to it,
  *
  *   V P = J V_ref (sigma + form) F^-T,  Q = V P M^-1   (least squares).
@@ -60,13 +60,13 @@ struct ForceViews
 };
 
 /**
- * Last stage: every owned particle gathers its own force, neighbours in global
+ * Last stage: every owned particle gathers its own force, neighbors in global
  * order, so that results do not depend on the number of ranks,
  *
  *   f_N = sum_J phi (Q_N + Q_J) dX             (least squares),
  *   f_N = sum_J [ V_N P_N g_NJ - V_J P_J g_JN ]  (stored gradients),
  *
- * and per bond what the form adds by its neighbours' fourth lanes.
+ * and per bond what the form adds by its neighbors' fourth lanes.
  */
 template <bool stored_gradients, typename Form>
 inline void gather_forces(const ForceViews &in, const Form &form,
@@ -112,7 +112,7 @@ inline void gather_forces(const ForceViews &in, const Form &form,
  *   static constexpr bool has_bond_forces;
  *   void trial(range, body);         // its trial stress, extra_square
  *   double add_stress(i, k, V, work, spatial); // its part of V sigma; returns
- *                                    // what neighbours get to know
+ *                                    // what neighbors get to know
  *   void exchange(body);             // what belongs to ghosts' bonds
  *   auto bond_forces(bonds);         // functor of one bond's force
  *   void add_forces(body);           // what is not a sum over one ring
@@ -137,10 +137,10 @@ void spg_step(SpgParts &body, Form &form, const double dt)
       update_stress(range, body, dt);
     else
       std::fill_n(work.return_factor, range.size(), 1.);
-    // Stress -> what it does to the neighbours.
+    // Stress -> what it does to the neighbors.
     generalize_stress<stored_gradients>(range, work, body, form);
   }
-  // Neighbours on other ranks.
+  // Neighbors on other ranks.
   body.exchange.update(body.fields.generalized_stress.data());
   form.exchange(body);
   // Every particle gathers its own force.

@@ -26,8 +26,11 @@ public:
   {
   }
 
+  // Owned particles by local index, now
+  /** Zero normal where it does not lie on the surface of the start. */
   SurfacePoint surface_point(const std::size_t i) const override;
   VolumePoint volume_point(const std::size_t i) const override;
+  /** All that have a failed bond: they may meet others again. */
   DebrisView debris() const override;
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
   std::size_t n_bonds() const override;

@@ -23,7 +23,7 @@ Mat square_root(const Mat &a)
   return from_eigen(solver.operatorSqrt());
 }
 
-/** The functions of the neighbours of a particle, itself first. */
+/** The functions of the neighbors of a particle, itself first. */
 template <typename Kernel>
 class Neighborhood
 {
@@ -146,7 +146,7 @@ void Approximation::find_gradients_with(
     const bool solved = !lost_direction[i] && around.evaluate(i, Vec{});
     for (std::size_t b = begin; b < end; ++b)
     {
-      // Fallback of deficient neighbourhoods: damped least squares.
+      // Fallback of deficient neighborhoods: damped least squares.
       shape_gradient[b] =
           solved ? f.gradient[1 + b - begin]
                  : bonds.weight[b] *

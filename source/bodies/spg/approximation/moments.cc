@@ -1,4 +1,4 @@
-// Weights of bonds, moments of neighbourhoods and the directions they lost.
+// Weights of bonds, moments of neighborhoods and the directions they lost.
 #include "sabot/bodies/spg/approximation/approximation.h"
 
 #include "sabot/bodies/spg/bond_list.h"

@@ -283,14 +283,14 @@ const Registry<Stabilization>::Add registered(
      "yield with the metal.",
      [](Parameters &prm)
      {
-       prm.declare_knob("Stabilisation coefficient", "4",
+       prm.declare_knob("Stabilization coefficient", "4",
                         quantity(Dimension::none, 0., 20.),
                         "Stiffness of the bond residual in shear moduli; 3 to "
                         "5 give the same answers.");
      },
      [](const Parameters &prm, const std::string &)
      {
-       const double alpha = get_quantity(prm, "Stabilisation coefficient");
+       const double alpha = get_quantity(prm, "Stabilization coefficient");
        return [alpha] { return std::make_unique<BondResidual>(alpha); };
      }});
 } // namespace

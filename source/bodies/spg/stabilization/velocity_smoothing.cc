@@ -67,7 +67,7 @@ LinearFunction find_function(const SpgParts &body, const std::size_t j,
  *   smoothed_I = (1/m_I) sum_J m_J Phi_I(x_J) v_J
  * and first-order functions Phi in the present configuration: since sum_I Phi_I
  * = 1 and sum_I x_I Phi_I(x_J) = x_J, both momenta of what is taken away are
- * zero. A particle whose neighbours do not span space, or which is next to
+ * zero. A particle whose neighbors do not span space, or which is next to
  * tied followers (their leaders move them), keeps what it has.
  */
 void subtract_smoothed(const SpgParts &body, AlignedVector<Vec> &velocity,
@@ -129,7 +129,7 @@ void VelocitySmoothing::after_step(SpgParts &body, const unsigned int step)
 
 const Registry<Stabilization>::Add registered(
     {"velocity smoothing",
-     "takes a part of what neighbours do not share out of the velocities, at "
+     "takes a part of what neighbors do not share out of the velocities, at "
      "intervals.",
      [](Parameters &prm)
      {

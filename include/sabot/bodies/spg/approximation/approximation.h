@@ -25,7 +25,7 @@ struct ParticleFields;
  *   g_NJ = grad Psi_J(X_N), Psi convex                    (stored gradients).
  *
  * The moment is judged as sum phi xi (x) xi, in the undeformed shape of the
- * kernel, where a compressed but complete neighbourhood looks like an intact
+ * kernel, where a compressed but complete neighborhood looks like an intact
  * one: a direction counts as lost where its eigenvalue is below a fraction of
  * the intact middle one (doc/theory-spg.md).
  */
@@ -49,7 +49,7 @@ public:
                          const GhostExchange &exchange);
 
   bool stores_gradients() const { return stores; }
-  /** Gradient g of the function of bond @p b's neighbour at its owned particle,
+  /** Gradient g of the function of bond @p b's neighbor at its owned particle,
       @p dX to it, @p moment_inverse of that particle [1/m]. */
   Vec gradient(const std::size_t b, const double weight,
                const Mat &moment_inverse, const Vec dX) const

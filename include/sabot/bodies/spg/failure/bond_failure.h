@@ -46,7 +46,7 @@ public:
   /** Failed bonds of an owned particle over all it ever had. */
   double failed_fraction(const BondList &bonds, const std::size_t i) const;
 
-  /** As a neighbour search needs them, empty where there is none: the global
+  /** As a neighbor search needs them, empty where there is none: the global
       numbers of those to which an owned particle's bonds failed. */
   std::vector<std::vector<GlobalIndex>> failed_pairs;
   std::vector<std::uint32_t> n_failed; // bonds per owned particle

@@ -1,0 +1,23 @@
+#ifndef sabot_bodies_spg_failure_release_stress_h
+#define sabot_bodies_spg_failure_release_stress_h
+
+#include <cstddef>
+
+namespace sabot
+{
+struct SpgParts;
+
+/**
+ * Take away the stress that owned particle @p i cannot bear any more because it
+ * lost a direction just now, between two steps, by the body's rule for failed
+ * metal. The elastic energy that goes with it,
+ *
+ *   V [ p^2/(2 K) + s : s/(4 G) ]  before less after,
+ *
+ * p the mean and s the deviator of the stress, V the volume at the last kernel
+ * update, is counted as lost [J]. Local to the rank.
+ */
+void release_stress(SpgParts &body, const std::size_t i);
+} // namespace sabot
+
+#endif
