@@ -1,5 +1,4 @@
-// Forces on the nodes of a halo: back to the bodies, their work, measures.
-
+// Forces of a contact at the slots of its halo, and their work.
 #include "sabot/couplings/halo_forces.h"
 
 #include <algorithm>

@@ -1,6 +1,4 @@
-// Where a node stands before the surface that particles make: side, depth, and
-// the particles that share its force.
-
+// Where a node stands against the surface or the volume of particles.
 #include "sabot/couplings/particle_standing.h"
 
 #include "sabot/couplings/mirror_images.h"

@@ -25,9 +25,11 @@ struct StableStep
   GlobalIndex item = -1;                          // node, particle or cell
 };
 
-/** A plane across an axis on which a model is cut. axis 0, 1, 2 for x, y, z.
-    Nothing crosses it: nodes on it have no velocity along the axis, and
-    contact sees mirror images beyond it. */
+/** Flow stress of what never yields [Pa]: beyond all stresses, but finite, so
+    that means over nodes with weights of zero stay defined. */
+constexpr double never_yields = 1e300;
+
+/** A plane across an axis on which a model is cut. */
 struct SymmetryPlane
 {
   int axis;
@@ -232,11 +234,11 @@ public:
   virtual unsigned int contact_surface_version() const { return 0; }
 
   /** Present uniaxial flow stress [Pa] of the surface at some owned nodes of
-      it; 1e300: does not yield. */
+      it; never_yields where that is so. */
   virtual std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const
   {
-    return std::vector<double>(some_nodes.size(), 1e300);
+    return std::vector<double>(some_nodes.size(), never_yields);
   }
 
   // What only some bodies are: null for the others.

@@ -51,8 +51,8 @@ public:
   std::vector<std::uint32_t> find_cells(const Hexahedra &cells) const;
 
   /** Present flow stress [Pa] at some owned nodes of the faces: the mean over
-      the faces around a node of that of the cells behind them; 1e300 where
-      there are no faces.
+      the faces around a node of that of the cells behind them; never_yields
+     where there are no faces.
       @param cell_of  cells behind the faces, see find_cells() */
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes,
