@@ -23,7 +23,7 @@ inline Vec flipped(Vec v, const unsigned int axes)
  * Images of points in the planes of symmetry near a place. With p planes near
  * there are 2^p images, numbered by the planes that they are mirrored in, a bit
  * each; image 0 is the point itself. What presses near a plane presses on the
- * half that is not modelled, too: its nodes are images of those that are.
+ * half that is not modeled, too: its nodes are images of those that are.
  * Planes are across axes, so mirroring commutes; two planes across the same
  * axis (a slab between them) give images of images once each.
  */
