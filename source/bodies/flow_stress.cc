@@ -1,6 +1,8 @@
 // The flow stress of any law, by what its return makes of trial stresses.
 #include "sabot/bodies/flow_stress.h"
 
+#include "sabot/bodies/body.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -99,9 +101,8 @@ FlowStressProbe::FlowStressProbe(const Material &material) : material(material)
 
 std::vector<double> FlowStressProbe::flow_stress() const
 {
-  constexpr double never = 1e300; // [Pa]
-  std::vector<double> result(pressures.size(),
-                             material.initial_yield_stress().value_or(never));
+  std::vector<double> result(
+      pressures.size(), material.initial_yield_stress().value_or(never_yields));
   for (std::size_t begin = 0; begin < result.size(); begin += max_batch_points)
     flow_stress_of_batch(begin,
                          std::min(max_batch_points, result.size() - begin),

@@ -1,3 +1,4 @@
+// Forces of a contact at the slots of its halo, and their work.
 #include "sabot/couplings/halo_forces.h"
 
 #include <algorithm>

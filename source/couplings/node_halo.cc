@@ -1,3 +1,4 @@
+// Copies of the motion of a few nodes of any bodies, wherever they live.
 #include "sabot/couplings/node_halo.h"
 
 #include <algorithm>
@@ -16,86 +17,75 @@ std::size_t owned_index(const Body &body, const GlobalIndex node)
 }
 } // namespace
 
+void NodeHalo::take_owned(const std::vector<NodeKey> &owned)
+{
+  owned_body.clear();
+  owned_local.clear();
+  for (const NodeKey &k : owned)
+  {
+    owned_body.push_back(k.body);
+    owned_local.push_back(owned_index(*all_bodies[k.body], k.node));
+  }
+}
+
+void NodeHalo::add_asked(const std::vector<NodeKey> &asked)
+{
+  const auto middle = key_of_slot.begin() + n_owned();
+  std::vector<NodeKey> owned(key_of_slot.begin(), middle);
+  const std::vector<NodeKey> others(middle, key_of_slot.end());
+  owned.insert(owned.end(), asked.begin(), asked.end());
+  std::sort(owned.begin(), owned.end());
+  owned.erase(std::unique(owned.begin(), owned.end()), owned.end());
+  key_of_slot = owned;
+  key_of_slot.insert(key_of_slot.end(), others.begin(), others.end());
+  take_owned(owned);
+}
+
 void NodeHalo::build(const std::vector<Body *> &bodies,
                      std::vector<NodeKey> keys, MPI_Comm communicator)
 {
-  int rank;
+  int rank, n_ranks;
   MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &n_ranks);
   all_bodies = bodies;
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   const auto owner = [&](const NodeKey &k)
   { return bodies[k.body]->node_owner[k.node]; };
-  std::stable_partition(keys.begin(), keys.end(),
-                        [&](const NodeKey &k) { return owner(k) == rank; });
+  const auto others =
+      std::stable_partition(keys.begin(), keys.end(),
+                            [&](const NodeKey &k) { return owner(k) == rank; });
   key_of_slot = keys;
-  owned_body.clear();
-  owned_local.clear();
-  std::vector<int> ghost_owner;
-  std::vector<GlobalIndex> ghost_key;
+  take_owned({keys.begin(), others});
+  // Ranks name nodes to each other by one number.
   const GlobalIndex n_bodies = bodies.size();
-  for (const NodeKey &k : keys)
-    if (owner(k) == rank)
-    {
-      owned_body.push_back(k.body);
-      owned_local.push_back(owned_index(*bodies[k.body], k.node));
-    }
-    else
-    {
-      ghost_owner.push_back(owner(k));
-      ghost_key.push_back(k.node * n_bodies + k.body);
-    }
-
-  // A node that another rank asks for gets a slot here, too.
-  int n_ranks;
-  MPI_Comm_size(communicator, &n_ranks);
+  const auto key_of_number = [&](const GlobalIndex number)
+  {
+    return NodeKey{std::int32_t(number % n_bodies), 0,
+                   GlobalIndex(number / n_bodies)};
+  };
+  std::vector<int> ghost_owner;
+  std::vector<GlobalIndex> ghost_number;
+  for (auto k = others; k != keys.end(); ++k)
+  {
+    ghost_owner.push_back(owner(*k));
+    ghost_number.push_back(k->node * n_bodies + k->body);
+  }
   if (n_ranks > 1)
   {
-    const std::size_t n_before = owned_body.size();
+    // A node that another rank asks for gets a slot here, too.
     std::vector<NodeKey> asked;
-    GhostExchange(communicator, 0, ghost_owner, ghost_key,
-                  [&](const GlobalIndex key)
+    GhostExchange(communicator, 0, ghost_owner, ghost_number,
+                  [&](const GlobalIndex number)
                   {
-                    asked.push_back({std::int32_t(key % n_bodies), 0,
-                                     GlobalIndex(key / n_bodies)});
+                    asked.push_back(key_of_number(number));
                     return std::size_t(0);
                   });
-    bool missing = false;
-    for (const NodeKey &k : asked)
-      missing =
-          missing || !std::binary_search(key_of_slot.begin(),
-                                         key_of_slot.begin() + n_before, k);
-    if (missing)
-    {
-      std::vector<NodeKey> owned(key_of_slot.begin(),
-                                 key_of_slot.begin() + n_before);
-      owned.insert(owned.end(), asked.begin(), asked.end());
-      std::sort(owned.begin(), owned.end());
-      owned.erase(std::unique(owned.begin(), owned.end()), owned.end());
-      std::vector<NodeKey> others(key_of_slot.begin() + n_before,
-                                  key_of_slot.end());
-      key_of_slot = owned;
-      key_of_slot.insert(key_of_slot.end(), others.begin(), others.end());
-      owned_body.clear();
-      owned_local.clear();
-      for (const NodeKey &k : owned)
-      {
-        owned_body.push_back(k.body);
-        owned_local.push_back(owned_index(*bodies[k.body], k.node));
-      }
-    }
+    add_asked(asked);
   }
-  const std::size_t n = owned_body.size();
-  exchange =
-      GhostExchange(communicator, n, ghost_owner, ghost_key,
-                    [&](const GlobalIndex key)
-                    {
-                      const NodeKey k{std::int32_t(key % n_bodies), 0,
-                                      GlobalIndex(key / n_bodies)};
-                      return std::lower_bound(key_of_slot.begin(),
-                                              key_of_slot.begin() + n, k) -
-                             key_of_slot.begin();
-                    });
+  exchange = GhostExchange(communicator, n_owned(), ghost_owner, ghost_number,
+                           [&](const GlobalIndex number)
+                           { return slot(key_of_number(number)); });
   position.resize(size());
   velocity.resize(size());
   inertia.resize(size());

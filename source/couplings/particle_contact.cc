@@ -49,16 +49,41 @@ void ParticleContact::update_search(const unsigned int, const double dt)
     search();
 }
 
+ParticleContact::Group ParticleContact::make_group(
+    const SearchedParticle &node, const int other, const std::int64_t n_members,
+    const ContactSurface &mine, const ContactSurface &its) const
+{
+  Group group{};
+  group.node = node.key;
+  group.other = other;
+  group.is_sound = node.is_on_surface;
+  group.n_members = n_members;
+  group.spacing = mine.spacing;
+  group.its_spacing = its.spacing;
+  group.stiffness = node.share * options.stiffness_scale *
+                    std::min(mine.bulk_modulus, its.bulk_modulus) *
+                    mine.spacing;
+  // Where both sides meet surfaces, each carries half of the shear.
+  group.area =
+      node.share * mine.spacing * mine.spacing / (node.is_on_surface ? 2. : 1.);
+  const auto old = std::lower_bound(groups.begin(), groups.end(), group);
+  if (old != groups.end() && !(group < *old))
+    group.memory = old->memory;
+  return group;
+}
+
 void ParticleContact::search()
 {
+<<<<<<< HEAD
+  traveled = 0.;
+=======
   traveled = 0.;
   int rank;
   MPI_Comm_rank(communicator, &rank);
+>>>>>>> main
   const ParticleSearch found(bodies, pairs, skin, communicator);
   allowance = std::max(skin, found.gap());
-
-  // Owners look for what their nodes may touch; everyone then keeps what
-  // touches nodes of his own, in the same order.
+  // Owners look for what their nodes may touch.
   std::vector<Group> my_groups;
   std::vector<Member> my_members;
   for (const SearchedParticle &node : found.mine())
@@ -69,30 +94,23 @@ void ParticleContact::search()
       const int other = node.key.body == a ? b : a;
       const std::size_t before = my_members.size();
       found.near(node, other, my_members);
-      if (my_members.size() == before)
-        continue;
-      const ContactSurface &mine = found.surface(node.key.body),
-                           &its = found.surface(other);
-      Group group{};
-      group.node = node.key;
-      group.other = other;
-      group.is_sound = node.is_on_surface;
-      group.n_members = my_members.size() - before;
-      group.spacing = mine.spacing;
-      group.its_spacing = its.spacing;
-      group.stiffness = node.share * options.stiffness_scale *
-                        std::min(mine.bulk_modulus, its.bulk_modulus) *
-                        mine.spacing;
-      // Where both sides meet surfaces, each carries half of the shear.
-      group.area = node.share * mine.spacing * mine.spacing /
-                   (node.is_on_surface ? 2. : 1.);
-      const auto old = std::lower_bound(groups.begin(), groups.end(), group);
-      if (old != groups.end() && !(group < *old))
-        group.memory = old->memory;
-      my_groups.push_back(group);
+      if (my_members.size() > before)
+        my_groups.push_back(make_group(node, other, my_members.size() - before,
+                                       found.surface(node.key.body),
+                                       found.surface(other)));
     }
-  const std::vector<Group> all = gather_all(my_groups, communicator);
-  const std::vector<Member> all_members = gather_all(my_members, communicator);
+  keep_relevant(gather_all(my_groups, communicator),
+                gather_all(my_members, communicator));
+  build_halo();
+  if (options.shear_strength.needs_flow_stress())
+    halo.find_flow_stress(flow_stress);
+}
+
+void ParticleContact::keep_relevant(const std::vector<Group> &all,
+                                    const std::vector<Member> &all_members)
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
   std::vector<std::size_t> first(all.size() + 1, 0), order(all.size());
   for (std::size_t g = 0; g < all.size(); ++g)
   {
@@ -117,9 +135,6 @@ void ParticleContact::search()
     groups.push_back(all[g]);
     members.insert(members.end(), begin, end);
   }
-  build_halo();
-  if (options.shear_strength.needs_flow_stress())
-    halo.find_flow_stress(flow_stress);
 }
 
 double ParticleContact::largest_friction(const Group &group,

@@ -1,3 +1,4 @@
+// Particles of several bodies near each other.
 #include "sabot/couplings/particle_search.h"
 
 #include "sabot/couplings/box_buckets.h"
@@ -74,42 +75,52 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
     return;
   for (Box &box : extent)
     box.inflate(margin);
-
   for (std::size_t b = 0; b < bodies.size(); ++b)
-  {
-    const NodalState &nodes = bodies[b]->nodes();
-    const std::vector<double> &shares = surfaces[b].node_share;
-    std::vector<char> is_loose(others[b].empty() ? 0 : nodes.n_owned, 0);
     if (!others[b].empty())
-      for (const std::size_t i : bodies[b]->particles()->debris().nodes)
-        is_loose[i] = 1;
-    for (std::size_t i = 0; i < is_loose.size(); ++i)
+      find_mine(*bodies[b], b, others[b], extent, skin);
+  gather_touchable(communicator);
+}
+
+void ParticleSearch::find_mine(const Body &body, const std::int32_t number,
+                               const std::vector<int> &others,
+                               const std::vector<Box> &extent,
+                               const double skin)
+{
+  const NodalState &nodes = body.nodes();
+  const ParticleView &view = *body.particles();
+  const std::vector<double> &shares = surfaces[number].node_share;
+  std::vector<char> is_loose(nodes.n_owned, 0);
+  for (const std::size_t i : view.debris().nodes)
+    is_loose[i] = 1;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    const Vec x = nodes.position[i];
+    if (std::none_of(others.begin(), others.end(),
+                     [&](const int other)
+                     { return extent[other].contains(x); }))
+      continue;
+    SearchedParticle particle{};
+    particle.key = {number, 0, nodes.global_id[i]};
+    particle.x = x;
+    particle.share = shares.empty() ? 1. : shares[i];
+    const SurfacePoint point =
+        is_loose[i] ? SurfacePoint() : view.surface_point(i);
+    particle.is_on_surface = point.spacing > 0.;
+    particle.is_open = is_loose[i] || particle.is_on_surface;
+    // Tied followers are inside of what they are tied to.
+    if (nodes.inertia[i] > 0.)
     {
-      const Vec x = nodes.position[i];
-      if (std::none_of(others[b].begin(), others[b].end(),
-                       [&](const int other)
-                       { return extent[other].contains(x); }))
-        continue;
-      SearchedParticle particle{};
-      particle.key = {std::int32_t(b), 0, nodes.global_id[i]};
-      particle.x = x;
-      particle.share = shares.empty() ? 1. : shares[i];
-      const SurfacePoint point = is_loose[i]
-                                     ? SurfacePoint()
-                                     : bodies[b]->particles()->surface_point(i);
-      particle.is_on_surface = point.spacing > 0.;
-      particle.is_open = is_loose[i] || particle.is_on_surface;
-      // Tied followers are inside of what they are tied to.
-      if (nodes.inertia[i] > 0.)
-      {
-        particle.reach = std::sqrt(2.) * reach * point.spacing + skin;
-        particle.to_unit = bodies[b]->particles()->volume_point(i).to_unit;
-        // It may change its shape somewhat until the next search.
-        particle.unit_reach = 1.2 + skin * frobenius(particle.to_unit);
-      }
-      my_particles.push_back(particle);
+      particle.reach = std::sqrt(2.) * reach * point.spacing + skin;
+      particle.to_unit = view.volume_point(i).to_unit;
+      // It may change its shape somewhat until the next search.
+      particle.unit_reach = 1.2 + skin * frobenius(particle.to_unit);
     }
+    my_particles.push_back(particle);
   }
+}
+
+void ParticleSearch::gather_touchable(MPI_Comm communicator)
+{
   std::vector<SearchedParticle> my_touchable;
   for (const SearchedParticle &particle : my_particles)
     if (particle.unit_reach > 0.)
@@ -118,12 +129,13 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
   std::sort(touchable.begin(), touchable.end(),
             [](const SearchedParticle &a, const SearchedParticle &b)
             { return a.key < b.key; });
-  first.assign(bodies.size() + 1, touchable.size());
+  const std::size_t n_bodies = buckets.size();
+  first.assign(n_bodies + 1, touchable.size());
   for (std::size_t s = touchable.size(); s-- > 0;)
     first[touchable[s].key.body] = s;
-  for (std::size_t b = bodies.size(); b-- > 0;)
+  for (std::size_t b = n_bodies; b-- > 0;)
     first[b] = std::min(first[b], first[b + 1]);
-  for (std::size_t b = 0; b < bodies.size(); ++b)
+  for (std::size_t b = 0; b < n_bodies; ++b)
   {
     std::vector<Box> boxes;
     for (std::size_t s = first[b]; s < first[b + 1]; ++s)

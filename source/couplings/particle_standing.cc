@@ -1,3 +1,4 @@
+// Where a node stands against the surface or the volume of particles.
 #include "sabot/couplings/particle_standing.h"
 
 #include "sabot/couplings/mirror_images.h"

@@ -17,6 +17,50 @@ struct Loose
   std::size_t local; // on its owner
   Vec x;
 };
+
+/** The loose particles of the bodies that take part, and who meets whom. */
+struct Debris
+{
+  std::vector<DebrisView> views; // of bodies
+  std::vector<char> meet;        // two bodies, a row each
+  std::vector<Loose> mine, all;
+  double largest_spacing = 0.; // [m]
+
+  bool may_meet(const NodeKey &a, const NodeKey &b) const
+  {
+    return meet[a.body * views.size() + b.body];
+  }
+};
+
+/** Collective. */
+Debris gather_debris(const std::vector<Body *> &bodies,
+                     const std::vector<std::pair<int, int>> &body_pairs,
+                     MPI_Comm communicator)
+{
+  const std::size_t n_bodies = bodies.size();
+  Debris debris;
+  debris.views.resize(n_bodies);
+  debris.meet.assign(n_bodies * n_bodies, 0);
+  std::vector<char> used(n_bodies, 0);
+  for (const auto &[a, b] : body_pairs)
+  {
+    debris.meet[a * n_bodies + b] = debris.meet[b * n_bodies + a] = 1;
+    used[a] = used[b] = 1;
+  }
+  for (std::size_t b = 0; b < n_bodies; ++b)
+  {
+    if (!used[b])
+      continue;
+    const DebrisView &view = debris.views[b] = bodies[b]->particles()->debris();
+    debris.largest_spacing = std::max(debris.largest_spacing, view.spacing);
+    const NodalState &nodes = bodies[b]->nodes();
+    for (const std::size_t i : view.nodes)
+      debris.mine.push_back(
+          {{std::int32_t(b), 0, nodes.global_id[i]}, i, nodes.position[i]});
+  }
+  debris.all = gather_all(debris.mine, communicator);
+  return debris;
+}
 } // namespace
 
 SelfContact::SelfContact(const std::string &name,
@@ -55,43 +99,36 @@ void SelfContact::update_search(const unsigned int, const double dt)
     search();
 }
 
-void SelfContact::search()
+SelfContact::Pair SelfContact::make_pair(const NodeKey &a, const NodeKey &b,
+                                         const double distance,
+                                         const DebrisView &of_a,
+                                         const DebrisView &of_b) const
 {
-  traveled = 0.;
+  const double h = std::min(of_a.spacing, of_b.spacing);
+  Pair pair{};
+  pair.first = std::min(a, b);
+  pair.second = std::max(a, b);
+  pair.distance = std::min(options.contact_distance * h, distance);
+  pair.stiffness = options.stiffness_scale * h *
+                   std::min(of_a.bulk_modulus, of_b.bulk_modulus);
+  pair.area = h * h;
+  pair.largest_friction = pair.area * options.shear_strength.value();
+  return pair;
+}
+
+void SelfContact::find_pairs()
+{
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  // Whether two bodies meet, and which take part at all.
-  const std::size_t n_bodies = bodies.size();
-  std::vector<char> meet(n_bodies * n_bodies, 0), used(n_bodies, 0);
-  for (const auto &[a, b] : body_pairs)
-  {
-    meet[a * n_bodies + b] = meet[b * n_bodies + a] = 1;
-    used[a] = used[b] = 1;
-  }
-  std::vector<Loose> mine;
-  std::vector<DebrisView> views(n_bodies);
-  double largest_spacing = 0.;
-  for (std::size_t b = 0; b < n_bodies; ++b)
-  {
-    if (!used[b])
-      continue;
-    views[b] = bodies[b]->particles()->debris();
-    largest_spacing = std::max(largest_spacing, views[b].spacing);
-    for (const std::size_t i : views[b].nodes)
-      mine.push_back({{std::int32_t(b), 0, bodies[b]->nodes().global_id[i]},
-                      i,
-                      bodies[b]->nodes().position[i]});
-  }
-  const std::vector<Loose> all = gather_all(mine, communicator);
+  const Debris debris = gather_debris(bodies, body_pairs, communicator);
+  const std::vector<Loose> &all = debris.all;
   n_loose = all.size();
-
-  const double reach = options.contact_distance * largest_spacing + skin;
+  const double reach = options.contact_distance * debris.largest_spacing + skin;
   PointBuckets buckets(reach);
   for (std::size_t i = 0; i < all.size(); ++i)
     buckets.add(all[i].x, i);
-
   std::vector<Pair> found;
-  for (const Loose &from : mine)
+  for (const Loose &from : debris.mine)
   {
     const NodeKey &a = from.key;
     buckets.for_near(
@@ -100,7 +137,7 @@ void SelfContact::search()
         {
           const NodeKey &b = all[j].key;
           const double distance = norm(all[j].x - from.x);
-          if (a == b || distance > reach || !meet[a.body * n_bodies + b.body])
+          if (a == b || distance > reach || !debris.may_meet(a, b))
             return;
           // A pair owned here twice is kept once.
           if (b < a && bodies[b.body]->node_owner[b.node] == rank)
@@ -108,17 +145,8 @@ void SelfContact::search()
           if (a.body == b.body &&
               bodies[a.body]->particles()->are_bonded(from.local, b.node))
             return;
-          const DebrisView &mine_view = views[a.body], &its = views[b.body];
-          const double h = std::min(mine_view.spacing, its.spacing);
-          Pair pair{};
-          pair.first = std::min(a, b);
-          pair.second = std::max(a, b);
-          pair.distance = std::min(options.contact_distance * h, distance);
-          pair.stiffness = options.stiffness_scale * h *
-                           std::min(mine_view.bulk_modulus, its.bulk_modulus);
-          pair.area = h * h;
-          pair.largest_friction = pair.area * options.shear_strength.value();
-          found.push_back(pair);
+          found.push_back(make_pair(a, b, distance, debris.views[a.body],
+                                    debris.views[b.body]));
         });
   }
   const auto before = [](const Pair &p, const Pair &q)
@@ -132,19 +160,21 @@ void SelfContact::search()
       pair.distance = old->distance;
   }
   pairs = std::move(found);
+}
+
+void SelfContact::search()
+{
+  traveled = 0.;
+  find_pairs();
   build_halo();
   if (!options.shear_strength.needs_flow_stress())
     return;
   std::vector<double> flow_stress;
   halo.find_flow_stress(flow_stress);
   for (Pair &pair : pairs)
-  {
-    const double h = std::min(views[pair.first.body].spacing,
-                              views[pair.second.body].spacing);
     pair.largest_friction =
-        h * h / std::sqrt(3.) *
+        pair.area / std::sqrt(3.) *
         std::min(flow_stress[pair.slot[0]], flow_stress[pair.slot[1]]);
-  }
 }
 
 void SelfContact::build_halo()
@@ -215,11 +245,12 @@ void SelfContact::add_forces(const double dt)
   forces.add_to_bodies(halo);
 }
 
-void SelfContact::push(const ContactPoint &on_b)
+void SelfContact::push(const ContactPoint &on_second)
 {
-  const std::size_t a = pairs[on_b.item].slot[0], b = pairs[on_b.item].slot[1];
-  const Vec normal = on_b.pressing * on_b.normal,
-            friction = -on_b.drag * on_b.sliding;
+  const std::size_t a = pairs[on_second.item].slot[0],
+                    b = pairs[on_second.item].slot[1];
+  const Vec normal = on_second.pressing * on_second.normal,
+            friction = -on_second.drag * on_second.sliding;
   forces.normal[a] -= normal;
   forces.normal[b] += normal;
   forces.friction[a] -= friction;

@@ -1,3 +1,6 @@
+// Central differences: kicks, drifts, and the order in which bodies and
+// couplings take part in a step.
+
 #include "sabot/integrator/central_difference.h"
 
 #include "sabot/base/error.h"

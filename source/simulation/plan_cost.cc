@@ -1,3 +1,5 @@
+// What a run will cost: a few steps are timed and scaled to the whole.
+
 #include "sabot/base/error.h"
 #include "sabot/integrator/stepper.h"
 #include "sabot/output/checkpoint.h"

@@ -1,3 +1,5 @@
+// What the output of a run will take, on disk and in time.
+
 #include "sabot/simulation/plan_output.h"
 
 #include "sabot/base/parameter_file.h"

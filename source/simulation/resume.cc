@@ -1,3 +1,5 @@
+// Resuming a run: from which checkpoint, and which entries may change.
+
 #include "sabot/simulation/resume.h"
 
 #include "sabot/base/error.h"

@@ -1,3 +1,6 @@
+// Whether a zone of particles was large enough: how far strain and failure came
+// to the tie.
+
 #include "sabot/simulation/zone_verdict.h"
 
 #include <algorithm>

@@ -10,7 +10,11 @@
 
 namespace sabot
 {
-/** @p value as a parameter file would have it, without loss of digits. */
+/**
+ * @p value as a parameter file would have it, without loss of digits.
+ * Seventeen significant digits, from which the same double is read back;
+ * without a unit, so in SI.
+ */
 std::string exact_text(const double value);
 
 /**
@@ -18,6 +22,9 @@ std::string exact_text(const double value);
  * entries and the defaults of the others, without a parameter file: for tests,
  * problems and benchmarks. Throws InputError for names and values that a file
  * could not have either.
+ *
+ * For products whose maker takes entries and a name only. The registry is
+ * filled by registrations at the start of the program. Not collective.
  */
 template <typename Product>
 auto choose(const std::string &name,
@@ -34,9 +41,13 @@ auto choose(const std::string &name,
   return entry.make(prm, name);
 }
 
-/** Whether @p text says the same as @p standard: the same words, or the same
-    number in another unit; of "never" also any number from 1e10 on, which
-    older files have in its place. */
+/**
+ * Whether @p text says the same as @p standard: the same words, or the same
+ * number in another unit; of "never" also any number from 1e10 on, which older
+ * files have in its place.
+ * Both converted to SI and compared exactly: "25.4 mm" and "0.0254 m" are the
+ * same where the conversions round alike.
+ */
 bool same_value(const std::string &text, const std::string &standard);
 
 /**
@@ -44,6 +55,10 @@ bool same_value(const std::string &text, const std::string &standard);
  * InputError for the first entry that only choices other than the present one
  * of @p selector declare and that differs from its default. @p path: of the
  * subsection, for messages.
+ *
+ * @p prm stands in the subsection that holds @p selector; entries that the
+ * chosen one declares, too, count as used. The message names the choice that
+ * would read the entry. Not collective; on all ranks alike.
  */
 template <typename Product>
 void refuse_unused(const Parameters &prm, const std::string &path,

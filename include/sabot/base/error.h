@@ -7,8 +7,11 @@
 
 namespace sabot
 {
-/** What the process returns to the shell; what each means stands in
-    exit_code_meanings(), from which the reference is made. */
+/**
+ * What the process returns to the shell; what each means stands in
+ * exit_code_meanings(), from which the reference is made.
+ * Of an error on any rank all ranks return the same.
+ */
 enum class ExitCode : int
 {
   done = 0,
@@ -47,15 +50,24 @@ public:
   const std::string parameter;
 };
 
-/** The run went wrong: not-a-number, energy blow-up, inversion. Ranks agree
-    first, so that all of them throw. */
+/**
+ * The run went wrong: not-a-number, energy blow-up, inversion. Ranks agree
+ * first, so that all of them throw.
+ * A run ends with ExitCode::physics_failed, its result and its last output
+ * written; the message says what went wrong where, in one line, and the log
+ * adds time and step.
+ */
 class PhysicsError : public std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/** A file could not be written or read; the message has the system's reason.
-    Collective functions throw it on all ranks when one had trouble. */
+/**
+ * A file could not be written or read; the message has the system's reason.
+ * Collective functions throw it on all ranks when one had trouble.
+ * ExitCode::io_failed. Nothing is tried again: what stood in the file before is
+ * kept where files are written new and renamed.
+ */
 class IOError : public std::runtime_error
 {
   using std::runtime_error::runtime_error;

@@ -14,23 +14,41 @@ namespace sabot
  * term; reduce() makes it the scene's. What the terms mean stands in
  * energy_terms, the one list from which the history, result.json, the balance
  * and the manual are made.
+ *
+ * At one moment, not of a step: work terms are what has been summed up since
+ * the start of the run. Kinetic energy is 1/2 m v^2 with lumped masses,
+ * internal that of the stresses' work.
  */
 struct EnergyLedger
 {
   ExactSum kinetic, internal, stabilization, hourglass, contact, friction,
       eroded, external, plastic_work, failure, tie;
 
-  /** Sum of all parts less what was supplied from outside: constant but for
-      the error of the method. Exact, whatever the order of terms. */
+  /**
+   * Sum of all parts less what was supplied from outside: constant but for the
+   * error of the method. Exact, whatever the order of terms.
+   *   sum of parts - sum of supplied,
+   * terms that are information only left out. The balance compares it with its
+   * value at the start.
+   */
   ExactSum total() const;
-  /** Add up over ranks. Collective. */
+  /**
+   * Add up over ranks. Collective.
+   * One message for all terms; the bits are the same for every number of ranks.
+   */
   void reduce(MPI_Comm communicator);
-  /** Call @p f(term, value in J) for each of energy_terms, in order. */
+  /**
+   * Call @p f(term, value in J) for each of energy_terms, in order.
+   * Terms as they are on this rank, so call reduce() before.
+   */
   template <typename Function>
   void for_each(const Function &f) const;
 };
 
-/** A term of the ledger. */
+/**
+ * A term of the ledger.
+ * A new one is a member of EnergyLedger and a line of energy_terms.
+ */
 struct EnergyTerm
 {
   enum class Role

@@ -17,14 +17,19 @@ struct Measure
 };
 using Measures = std::vector<Measure>;
 
-/** The value of the measure called @p name; throws std::logic_error where
-    there is none. */
+/**
+ * The value of the measure called @p name; throws std::logic_error where there
+ * is none.
+ * The first of that name; names are few, so the search is linear.
+ */
 double find_measure(const Measures &measures, const std::string &name);
 
 /**
  * A whole body at one moment, the same on all ranks and, to the last bit, for
  * every number of ranks. What all bodies have stands in members, so that nobody
  * has to look for it by name; what only some kinds have stands in `own`.
+ * In the fixed frame of the scene; bounds are of the present configuration.
+ * Eroded mass and momentum have left the body since the start.
  */
 struct BodyMeasures
 {
@@ -43,16 +48,21 @@ struct BodyMeasures
   /** All of it as columns of the history: mass, velocity, kinetic energy,
       bounds, internal energy, own. */
   Measures columns() const;
-  /** The column called @p name; throws std::logic_error where there is
-      none. */
+  /**
+   * The column called @p name; throws std::logic_error where there is none.
+   * Makes all columns for it: for results, not for loops.
+   */
   double find(const std::string &name) const
   {
     return find_measure(columns(), name);
   }
 };
 
-/** Values of one output field on the points or cells of an OutputMesh. Name,
-    unit and components are those of its description (output_fields.h). */
+/**
+ * Values of one output field on the points or cells of an OutputMesh. Name,
+ * unit and components are those of its description (output_fields.h).
+ * Item after item, components of one item side by side. SI.
+ */
 struct OutputField
 {
   std::string name, unit;

@@ -22,10 +22,12 @@ struct NodalState
 {
   std::size_t n_owned = 0;
   /** Number in the body, the same for every number of ranks. */
-  std::vector<GlobalIndex> global_id;    // [n_owned + n_ghost]
+  std::vector<GlobalIndex> global_id; // [n_owned + n_ghost]
+  /** X at the start of the run [m]; does not change. */
   AlignedVector<Vec> reference_position; // [n_owned + n_ghost]
   AlignedVector<Vec> position;           // [n_owned + n_ghost]
-  AlignedVector<Vec> velocity;           // [n_owned + n_ghost]
+  /** At t(n) between steps, at t(n+1/2) within one [m/s]. */
+  AlignedVector<Vec> velocity; // [n_owned + n_ghost]
   /** External - internal - stabilization, then with what couplings add: [N],
       of owned nodes. Ghosts' entries are not used. */
   AlignedVector<Vec> force; // [n_owned + n_ghost]
@@ -38,7 +40,10 @@ struct NodalState
 
   /** n_owned + n_ghost. */
   std::size_t size() const { return global_id.size(); }
-  /** Make room for @p n nodes; n_owned stays as it is. */
+  /**
+   * Make room for @p n nodes; n_owned stays as it is.
+   * New vectors are zero; the others stay as they are.
+   */
   void resize(const std::size_t n)
   {
     global_id.resize(n);

@@ -32,6 +32,10 @@ public:
       : base(std::move(base))
   {
   }
+  /**
+   * Whether a file may have @p text; a unit of another dimension or a value out
+   * of range is no match.
+   */
   bool match(const std::string &text) const;
   /** What is right, in words, as the manual and messages say it. */
   std::string description() const;

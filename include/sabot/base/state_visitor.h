@@ -16,7 +16,11 @@ class StateVisitor
 {
 public:
   virtual ~StateVisitor() = default;
-  /** @p n entries of @p size bytes each. */
+  /**
+   * @p n entries of @p size bytes each.
+   * Bytes as they lie in memory, so on machines of the same byte order only. @p
+   * name tells it apart from what the owner gives before and after.
+   */
   virtual void visit(const std::string &name, void *data, std::size_t n,
                      std::size_t size) = 0;
   /** Entries that the next visit of @p name has: @p n when the state is saved,
@@ -30,14 +34,20 @@ public:
       made anew. */
   virtual bool is_restoring() const { return false; }
 
-  /** An array that has the length it must have, of objects without
-      pointers. */
+  /**
+   * An array that has the length it must have, of objects without pointers.
+   * The owner has made it of that length; a restorer refuses another with
+   * IOError.
+   */
   template <typename Array>
   void visit_array(const std::string &name, Array &data)
   {
     visit(name, data.data(), data.size(), sizeof(data[0]));
   }
-  /** An array whose length is part of the state. */
+  /**
+   * An array whose length is part of the state.
+   * Saved, it keeps its length; restored, it takes that of the checkpoint.
+   */
   template <typename Array>
   void visit_resized(const std::string &name, Array &data)
   {
@@ -49,7 +59,11 @@ public:
   {
     visit_resized(name, text);
   }
-  /** A number, or another object without pointers. */
+  /**
+   * A number, or another object without pointers.
+   * Padding bytes go along: of structures give the members one by one where
+   * files are to be compared.
+   */
   template <typename T>
   void visit_value(const std::string &name, T &value)
   {

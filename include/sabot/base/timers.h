@@ -17,6 +17,9 @@ namespace sabot
  *
  * Scopes may stand within each other: the outer one counts the time of the
  * inner one, too.
+ *
+ * Not thread-safe, not collective: ranks measure on their own, and waiting for
+ * others counts for the phase that waits.
  */
 class Timers
 {
@@ -26,7 +29,11 @@ public:
     double seconds = 0.; // sum over all calls
     long calls = 0;
   };
-  /** Measures until it goes out of scope. */
+  /**
+   * Measures until it goes out of scope.
+   * By the steady clock, which no change of the system's time moves. An
+   * exception that leaves the block ends it, too.
+   */
   class Scope
   {
   public:
@@ -47,9 +54,16 @@ public:
     Phase &phase;
     const std::chrono::steady_clock::time_point start;
   };
-  /** Start the phase @p name; it ends with the object that is returned. */
+  /**
+   * Start the phase @p name; it ends with the object that is returned.
+   * A name comes into being with its first scope. The object must be kept: of
+   * one that is not the phase ends at once.
+   */
   Scope scope(const std::string &name) { return Scope(phases[name]); }
-  /** Phases that were met, by name. */
+  /**
+   * Phases that were met, by name.
+   * Seconds of a scope that still runs are not in it.
+   */
   const std::map<std::string, Phase> &all() const { return phases; }
 
 private:

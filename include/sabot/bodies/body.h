@@ -16,12 +16,18 @@
 
 namespace sabot
 {
-/** A proposal for the stable step and who makes it. */
+/** A proposal for the stable step and who makes it. The default proposes
+    nothing: the largest double. item is a global number, for the log and for
+    messages of a step that has become too short. */
 struct StableStep
 {
   double dt = std::numeric_limits<double>::max(); // [s]
   GlobalIndex item = -1;                          // node, particle or cell
 };
+
+/** Flow stress of what never yields [Pa]: beyond all stresses, but finite, so
+    that means over nodes with weights of zero stay defined. */
+constexpr double never_yields = 1e300;
 
 /** A plane across an axis on which a model is cut. */
 struct SymmetryPlane
@@ -35,7 +41,8 @@ struct SymmetryPlane
 };
 
 /** What other bodies may touch; indices are local. Faces are quadrilaterals
-    with outward normal by the right-hand rule. */
+    with outward normal by the right-hand rule. Made anew when asked for:
+    couplings keep it until contact_surface_version() changes. */
 struct ContactSurface
 {
   std::vector<std::array<std::size_t, 4>> faces; // any local node index
@@ -63,6 +70,9 @@ struct SurfacePoint
  * A node of a body without faces as part of its volume: it fills the share
  * content phi(|to_unit (x - x_j)|) of the space at x, phi the cubic spline. The
  * shares of all nodes add to 1 deep inside the body, to 1/2 on its surface.
+ *
+ * content has no unit: with the ellipsoid's volume it gives the matter of the
+ * node.
  */
 struct VolumePoint
 {
@@ -79,7 +89,8 @@ struct DebrisView
   double spacing = 0.;            // [m]
 };
 
-/** A connected piece of a body whose bonds may fail. */
+/** A connected piece of a body whose bonds may fail. By Body::fragments(); a
+    particle without bonds is a fragment of its own. */
 struct Fragment
 {
   GlobalIndex n_particles = 0;
@@ -87,7 +98,9 @@ struct Fragment
   std::array<double, 3> velocity{}; // of the center of mass [m/s]
 };
 
-/** Damage and flow at one place of a body's material. */
+/** Damage and flow at one place of a body's material. For the verdict on
+    zones of particles: how far flow and failure came by the end of a run. In
+    the undeformed configuration. */
 struct MaterialSite
 {
   std::array<double, 3> reference_position; // particle or center of cell [m]
@@ -95,13 +108,16 @@ struct MaterialSite
   double failed_share = 0.;                 // of the bonds that end here
 };
 
-/** View of a body whose surface is faces with cells behind them. */
+/** View of a body whose surface is faces with cells behind them. Local to a
+    rank. The parallel arrays are those of contact_surface(). */
 class FaceView
 {
 public:
   virtual ~FaceView() = default;
   /** Nodes (local, VTK order) of the cells behind the faces of
-      contact_surface(), where this rank owns the face's lowest node. */
+      contact_surface(), where this rank owns the face's lowest node. Ties
+      take the trilinear functions of such a cell for nodes that stand off
+      its face. */
   virtual std::vector<std::array<std::size_t, 8>>
   cells_behind_faces() const = 0;
   /** Whether the faces deform: only such a body leads a tie or folds onto
@@ -144,6 +160,10 @@ public:
  * A body is made in two phases: its constructor lays out all nodes, the same
  * on every rank (partition_points()); distribute() then keeps what this rank
  * owns.
+ *
+ * SI units, one fixed frame. Node arrays hold owned nodes first, then ghosts,
+ * both by ascending global number. "Collective" means that all ranks of the
+ * communicator call it together; everything else is local.
  */
 class Body
 {
@@ -159,7 +179,9 @@ public:
   partition_points() const = 0;
   /** Cost of one node, relative to others, for the partition. */
   virtual double partition_weight() const = 0;
-  /** Keep the nodes whose owner is this rank; all ranks call it. */
+  /** Keep the nodes whose owner is this rank; all ranks call it. Positions
+      at the start and all reference data are made here, and data of the
+      whole body are released. Collective. */
   virtual void distribute(const std::vector<int> &owner,
                           MPI_Comm communicator) = 0;
 
@@ -170,18 +192,23 @@ public:
   NodalState &nodes() { return nodal_state; }
   const NodalState &nodes() const { return nodal_state; }
 
-  /** Velocities that are prescribed, e.g. of clamped nodes. */
+  /** Velocities that are prescribed, e.g. of clamped nodes. After every
+      kick; a rigid body also collects the impulses of its nodes here, which
+      makes it collective. */
   virtual void impose_velocities(const double time) = 0;
   /** Work of the current forces on prescribed velocities along half a step's
       motion (called before and after each drift). */
   virtual void accumulate_work(const double /*half_dt*/) {}
-  /** Copy positions and velocities that the forces need to other ranks. */
+  /** Copy positions and velocities that the forces need to other ranks.
+      After every drift, before compute_forces(). Collective. */
   virtual void update_ghosts() = 0;
   /** Set force of every owned node to external - internal - stabilization.
       @p dt is the step that led to the current positions (0 at the start).
       Collective. */
   virtual void compute_forces(const double time, const double dt) = 0;
-  /** Largest stable step seen from this rank, in the current state. */
+  /** Largest stable step seen from this rank, in the current state. [s],
+      without the scene's step factor; item is a global number. Local: the
+      integrator takes the least of all. */
   virtual StableStep stable_step() const = 0;
   /** What is done between steps: kernel updates, bond failure, erosion. Where
       this changes the body's part of the forces, the array of forces already
@@ -189,24 +216,29 @@ public:
       @return whether it may have, the same on all ranks. */
   virtual bool update_topology(const unsigned int step, const double time) = 0;
 
-  /** Add this rank's share. */
+  /** Add this rank's share. [J], owned nodes and items only, so that the sum
+      over ranks counts each once. Local. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;
   /** The whole body at this moment. Collective, same on all ranks. */
   virtual BodyMeasures measure() const = 0;
+  /** This rank's part, at present positions [m]; names and units of fields
+      are described ones. */
   virtual OutputMesh output_mesh() const = 0;
-  /** Everything that a restart needs. */
+  /** Everything that a restart needs. The same order for writing and
+      reading; collective where bonds or ghosts have to be found again. */
   virtual void visit_state(StateVisitor &visitor) = 0;
 
+  /** This rank's part of what may be touched, now. */
   virtual ContactSurface contact_surface() const = 0;
   /** Changes whenever contact_surface() would return something new. */
   virtual unsigned int contact_surface_version() const { return 0; }
 
   /** Present uniaxial flow stress [Pa] of the surface at some owned nodes of
-      it; 1e300: does not yield. */
+      it; never_yields where that is so. */
   virtual std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const
   {
-    return std::vector<double>(some_nodes.size(), 1e300);
+    return std::vector<double>(some_nodes.size(), never_yields);
   }
 
   // What only some bodies are: null for the others.

@@ -8,12 +8,19 @@
 
 namespace sabot
 {
-/** A body before the run, as estimates of physics and cost see it. */
+/** A body before the run, as estimates of physics and cost see it. Filled by
+    Body::facts() from the options alone, so that a scene can be judged
+    without a step: speeds of impact, shock pressure, the stable step by
+    spacing over wave speed. Borrowed material: valid while the body lives. */
 struct BodyFacts
 {
   const Material *material = nullptr; // of a rigid body: its density only
+  /** Rigid bodies do not: they have neither wave speed nor stress. */
   bool deforms = true;
+  /** Its items are particles and not cells: they cost more and may come
+      apart. */
   bool is_particles = false;
+  /** Faces of symmetry and driven ones do not count. */
   bool is_clamped = false;          // somewhere
   std::array<double, 3> velocity{}; // at the start [m/s]
   /** Distance of nodes that was asked for along the axes; the finest where it

@@ -12,8 +12,14 @@
 
 namespace sabot
 {
-/** Stress, von Mises, pressure and scalar state variables of the @p items of
-    arrays [component][n], as output fields. */
+/**
+ * Stress, von Mises, pressure and scalar state variables as output fields.
+ * @param items   which of the n cells or particles, usually the owned ones
+ * @param stress  [6][n], Cauchy [Pa], xx, yy, zz, xy, yz, xz; the pressure
+ *                -tr/3 is positive in compression
+ * @param state   [count_states()][n], in the order of the variables; tensors
+ *                take six arrays and are left out
+ */
 void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<std::size_t> &items,
                          const std::size_t n, const double *stress,
@@ -21,7 +27,9 @@ void add_material_fields(std::vector<OutputField> &fields,
                          const std::vector<StateVariable> &variables);
 
 /** A field with value(item, component) for @p n items; unit and number of
-    components are those of its description (base/output_fields.h). */
+    components are those of its description (base/output_fields.h). Item by
+    item, components adjacent. The name must have been described, as
+    DescribeField does at the bottom of the file that owns the field. Local. */
 template <typename Value>
 void add_field(std::vector<OutputField> &fields, const std::string &name,
                const std::size_t n, const Value &value)
@@ -35,18 +43,22 @@ void add_field(std::vector<OutputField> &fields, const std::string &name,
   fields.push_back(std::move(field));
 }
 
-/** Mass, velocity of the center of mass, kinetic energy and bounding box of
-    all owned nodes that are not left out ([n_owned], may be null). Collective,
-    the same for every number of ranks. */
+/**
+ * Mass [kg], velocity of the center of mass [m/s], kinetic energy [J] and
+ * bounding box [m] of all owned nodes that are not left out ([n_owned], may be
+ * null). Exact sums: collective, and the same for every number of ranks.
+ */
 BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
                            const std::vector<char> *left_out = nullptr);
 
-/** Start of the array of a scalar state variable in [state][n], or null. */
+/** By name. Start of the array of a scalar state variable in [state][n], or
+ * null. */
 const double *find_state(const std::vector<StateVariable> &variables,
                          const double *state, const std::size_t n,
                          const std::string &name);
 
-/** Number of arrays that the state variables take. */
+/** Number of arrays that the state variables take: one a scalar, six a
+    tensor. */
 std::size_t count_states(const std::vector<StateVariable> &variables);
 } // namespace sabot
 

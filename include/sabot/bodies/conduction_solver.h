@@ -18,6 +18,11 @@ namespace sabot
  * @param multiply  product = A x on owned entries; sets the ghosts of x first
  * @param x         [owned, then ghosts], solution on owned entries
  * @return number of iterations. Collective. Throws PhysicsError.
+ *
+ * Starts from x = 0 and ends when r . D^-1 r has come down to 1e-18 of its
+ * first value (of 1 where that is less): temperatures to 1e-9 of the largest
+ * change, or to 1e-9 K. More than 10000 iterations, or numbers that are none,
+ * count as no convergence. diagonal and right are [owned].
  */
 unsigned int solve_conduction(
     const std::vector<double> &diagonal, const std::vector<double> &right,

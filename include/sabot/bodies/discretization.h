@@ -13,7 +13,8 @@
 
 namespace sabot
 {
-/** What a body is built from. */
+/** What a body is built from. Filled by whoever assembles the scene; lives
+    during build() only. Lengths in m, whatever unit the file has. */
 struct BodyRequest
 {
   /** The body's subsection is entered. Not const: what was found out may be
@@ -36,6 +37,8 @@ struct BodyRequest
  * How a body is made of items: one choice of "Discretization", with the entries
  * of such bodies. A new one is one folder with a body, an implementation of
  * this class, and its registration. Without state.
+ *
+ * Objects are made by the registry by the name in the scene: FEM, SPG, rigid.
  */
 class Discretization
 {
@@ -44,16 +47,21 @@ public:
   using Make = std::unique_ptr<Discretization>();
   virtual ~Discretization() = default;
 
-  /** Declares the entries in the body's subsection; those that name faces say
-      which by @p shape, which is null where the shape is not known. */
+  /** Declares the entries in the body's subsection; those that name faces
+      say which by @p shape, which is null where the shape is not known.
+      Called before values are read, and for the reference of entries, where
+      no scene is known. */
   virtual void declare(Parameters &prm, const Shape *shape) const = 0;
-  /** The body; not collective. Throws InputError, by the entry. */
+  /** The body; not collective. Throws InputError, by the entry. Every rank
+      builds the whole body, with all nodes; Body::distribute() then keeps a
+      part. */
   virtual std::unique_ptr<Body> build(BodyRequest &request) const = 0;
 
   /** Whether particles may take the place of a part of such a body. */
   virtual bool may_be_carved() const { return false; }
   /** The name of the body in whose place, within its own shape, this one
-      stands; empty: none. */
+      stands; empty: none. Of the entry "Carve from"; the host loses its
+      cells in that place. */
   virtual std::string carved_from(const Parameters &) const { return ""; }
   /** Size of the cells whose mesh a carved zone follows [m]. */
   virtual double cell_size(const Parameters &) const { return 0.; }

@@ -34,10 +34,17 @@ public:
    * return makes of trial stresses q: theta q = Y(eps + (1 - theta) q/(3 G))
    * where it yields, theta = 1 where q <= Y. To 1e-6. Laws whose return never
    * acts have their initial yield stress.
+   *
+   * Found by bracketing Y between a stress that is borne and one that flows, at
+   * most 60 trials; above the shear modulus a point counts as one that never
+   * yields: 1e300. Local.
    */
   std::vector<double> flow_stress() const;
 
 private:
+  /** Points begin to begin + n of those collected, n <= max_batch_points.
+      Tensor states are set to zero: they are stresses of their own, of
+      kinematic hardening, and the trial has no direction. */
   void flow_stress_of_batch(const std::size_t begin, const std::size_t n,
                             double *result) const;
   const Material &material;

@@ -17,18 +17,27 @@ namespace sabot
  * The reaction on a component with constant velocity is minus the node's force
  * there, so what drives the nodes does the work -f . v dt on the body
  * (trapezoidal over the step, as the work of couplings).
+ *
+ * Used as prescribe() for each component, finish(), then impose() after every
+ * kick. No function is collective; ghosts' velocities come from their owners.
  */
 class VelocityConstraints
 {
 public:
-  /** Hold component @p axis of node @p i; a later call replaces an earlier. */
+  /** Hold component @p axis of node @p i; a later call replaces an earlier.
+      i local and owned, axis 0 to 2, velocity [m/s]. FemBoundary relies on
+      the order: planes of symmetry, driven faces, clamped ones. */
   void prescribe(const std::size_t i, const int axis, const double velocity);
-  /** Once, after the last prescribe(). */
+  /** Once, after the last prescribe(). Sorts by node, and finds out whether
+      any velocity differs from zero: without, there is no work to be done. */
   void finish();
 
-  /** Set the held components of the velocity; the others stay. */
+  /** Set the held components of the velocity; the others stay. v := free * v
+      + value by component, the same bits wherever the node is owned. */
   void impose(NodalState &nodes) const;
-  /** Work along @p half_dt with the current forces; collective with nobody. */
+  /** Work along @p half_dt with the current forces; collective with nobody.
+      -dt/2 f . v_prescribed [J]; tied followers, which have no inertia of
+      their own, are moved by their leaders and do not count. */
   void accumulate_work(const NodalState &nodes, const double half_dt);
   /** Work done on the owned nodes so far [J]. */
   const ExactSum &work() const { return done; }

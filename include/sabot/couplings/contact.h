@@ -31,11 +31,14 @@ namespace sabot
 class Contact : public Coupling
 {
 public:
+  /** @p bodies: all of the scene, by number; @p pairs: who meets whose faces,
+      each direction for itself, a body with itself for one that folds. */
   Contact(const std::string &name, const std::vector<Body *> &bodies,
           const std::vector<ContactPair> &pairs, const ContactOptions &options,
           MPI_Comm communicator);
 
   std::string kind() const override { return "contact"; }
+  /** Of pairs (faces, nodes), both directions where both are listed. */
   std::vector<std::pair<int, int>> holds_apart() const override;
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
@@ -45,12 +48,15 @@ public:
   Measures measure() const override;
   void visit_state(StateVisitor &visitor) override;
 
-  /** Largest penetration at the start over the nodal spacing, and the node. */
+  /** Largest penetration at the start over the nodal spacing, the same on all
+      ranks, and the node where this rank found its own largest. */
   double initial_penetration() const { return initial_over_spacing; }
   const NodeKey &initial_penetration_node() const { return initial_node; }
 
 private:
-  /** A node and the faces it may touch. */
+  /** A node and the faces it may touch, with what the law needs of them. A node
+      that meets several bodies has one group with the faces of all: it is held
+      by one face at a time. */
   struct Group : NearFaces
   {
     double stiffness; // s K h [N/m]
@@ -63,7 +69,8 @@ private:
     double patch_radius = 0.;
     double share = 1.; // ContactSurface::node_share
   };
-  /** A group as a checkpoint holds it; the nodes of its faces stand apart. */
+  /** A group as a checkpoint holds it, by global numbers; the nodes of its
+     faces stand apart, four a face. Written bit by bit. */
   struct SavedGroup
   {
     NodeKey node;
@@ -73,12 +80,18 @@ private:
     ContactMemory memory;
     double wake, patch_radius, share;
   };
+  /** Halo, groups and faces as they were: candidates cannot be found anew, for
+      the bodies moved since the last search. Collective. */
   void restore_groups(const std::vector<SavedGroup> &saved,
                       const std::vector<NodeKey> &face_nodes);
+  /** Ask the bodies of all pairs for their surfaces, which erosion changes. */
   void update_surfaces();
+  /** ContactPatch::radius() between two bodies [m]. */
   double patch_radius(const int nodes_of, const int faces_of) const;
 
-  // Search. Collective.
+  // Search: due when the bodies may together have covered the skin.
+  /** New groups, which inherit the memories of nodes that are still candidates.
+      Collective. */
   void search();
   /** The candidates first to last - 1 of one node. */
   struct KeptNode
@@ -92,7 +105,7 @@ private:
   /** Adds its faces to the list, too. */
   Group make_group(const SearchResult &found, const KeptNode &node,
                    const std::vector<std::size_t> &number_of_face);
-  /** For the present halo. */
+  /** Arrays per slot, for the present halo. */
   void reset_slots();
 
   // Forces
@@ -110,6 +123,8 @@ private:
   Vec velocity_of_touched(const std::size_t first) const;
   /** Of friction per area [Pa], between a node and what it touches. */
   double shear_limit(const Group &group, const std::size_t first) const;
+  /** Forces on the node, and their opposite, in parts, on what it touches: the
+      sum over slots is zero, so linear momentum is exact. */
   void push(const ContactPoint &point);
 
   const std::vector<Body *> bodies;

@@ -6,7 +6,10 @@
 
 namespace sabot
 {
-/** Declares `Bodies` and the entries of ContactOptions. */
+// What the builders of contact and of self-contact share.
+
+/** Declares `Bodies` and the entries of ContactOptions in the present
+    subsection. */
 void declare_contact(Parameters &prm);
 
 /** The bodies that the entry `Bodies` lists, by number, in its order;

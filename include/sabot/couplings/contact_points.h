@@ -5,8 +5,12 @@
 
 namespace sabot
 {
-/** A node that presses on something in this step: what a coupling found, and
-    the forces that spring and friction make of it. */
+/**
+ * A node that presses on something in this step, in the current frame: what a
+ * coupling found, and the forces that spring and friction make of it. One point
+ * stands for a node against a face, a patch or other particles, or for one
+ * particle of a pair against the other.
+ */
 struct ContactPoint
 {
   // Set by the coupling.
@@ -31,17 +35,22 @@ struct ContactPoint
   double drag;     // friction over the speed of sliding [N s/m]
   double part;     // that the work of the spring bears, times fade
 
+  /** On the node [N]. */
   Vec normal_force() const { return part * (pressing * normal); }
   Vec friction_force() const { return part * (-drag * sliding); }
 };
 
 /**
- * All contact points of a coupling in one step: spring and law work on arrays,
- * so that the choice of a law costs nothing per point.
+ * All contact points of a coupling in one step, in the order of adding, which
+ * is the order in which forces are summed. A coupling fills it, asks for the
+ * forces, and pushes; spring and law work on arrays, so that the choice of a
+ * law costs nothing per point, and a law that couples points (a constraint
+ * solved for all at once) has them together.
  */
 class ContactPoints
 {
 public:
+  /** Before a new step; memory is kept. */
   void clear() { points.clear(); }
   void add(const ContactPoint &point) { points.push_back(point); }
   /** Penalty and damping while approaching (SpringOptions), friction of the
@@ -58,7 +67,7 @@ public:
 
 private:
   std::vector<ContactPoint> points;
-  SlidingContacts contacts;
+  SlidingContacts contacts;     // parallel to points, for the law
   std::vector<double> friction; // [N]
 };
 } // namespace sabot

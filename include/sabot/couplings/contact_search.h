@@ -7,8 +7,9 @@
 
 namespace sabot
 {
-/** Nodes of one body against the faces of another, or of the same (indices of
-    bodies). */
+/** Nodes of one body against the faces of another, by numbers of bodies. With
+    itself: a body that folds, whose nodes meet the faces that they look at from
+    outside (within 75 degrees) and that share no node with their own faces. */
 struct ContactPair
 {
   int faces_of, nodes_of;
@@ -35,7 +36,8 @@ struct ContactCandidate
   Vec area; // quarters of the vectors of its own faces, where asked for [m^2]
 };
 
-/** The same on every rank. */
+/** What a search found; the same on every rank. A node that may touch several
+    bodies has one candidate for each, one after the other. */
 struct SearchResult
 {
   std::vector<FaceNodes> faces;                // sorted by body and id
@@ -43,7 +45,8 @@ struct SearchResult
   std::vector<ContactCandidate> candidates;    // sorted by node, then body
 };
 
-/** Memories of the nodes owned here, sorted by node. */
+/** Memories of the nodes owned here, sorted by node: a node that went deeper
+    than a spacing still sees the face that it came by. */
 using ContactMemories = std::vector<std::pair<NodeKey, ContactMemory>>;
 
 /**
@@ -56,7 +59,7 @@ using ContactMemories = std::vector<std::pair<NodeKey, ContactMemory>>;
 struct ContactSearch
 {
   const std::vector<Body *> &bodies;
-  /** Of all bodies; those of no pair may be empty. */
+  /** Of all bodies, as they are now; those of no pair may be empty. */
   const std::vector<ContactSurface> &surfaces;
   const std::vector<ContactPair> &pairs;
   const ContactMemories &memories;
@@ -68,9 +71,13 @@ struct ContactSearch
   SearchResult find() const;
 };
 
-/** Largest speed at which a node of one body of a pair can close in on a node
-    of the other [m/s]: speeds are taken from the middle of all velocities.
-    Collective. */
+/**
+ * Largest speed at which a node of one body of a pair can close in on a node of
+ * the other [m/s]: max over pairs of |v_a - m| + |v_b - m|, each the largest of
+ * its body, with the middle m of the box around all velocities of the bodies in
+ * @p pairs. A bound: what flies along with the scene costs nothing. Collective,
+ * the same on all ranks.
+ */
 double largest_closing_speed(const std::vector<Body *> &bodies,
                              const std::vector<std::pair<int, int>> &pairs,
                              MPI_Comm communicator);

@@ -12,14 +12,20 @@
 
 namespace sabot
 {
-/** Acts between bodies through their nodes only. */
+/**
+ * Acts between bodies through their nodes only. A step calls, in this order:
+ * impose_kinematics() before the drift, add_forces() of all couplings in the
+ * scene's order (ties last) after the bodies' own forces, accumulate_work()
+ * with the forces before and after each drift; between steps update_search(),
+ * and forward_changes() where a body's forces changed.
+ */
 class Coupling
 {
 public:
   explicit Coupling(const std::string &name) : name(name) {}
   virtual ~Coupling() = default;
 
-  const std::string name;
+  const std::string name; // in the scene, or with what part of it this is
 
   /** "tie", "contact" or "self-contact": the name of its timers and its type
       in results. Not to be compared: what it does, holds_apart() says. */
@@ -27,11 +33,14 @@ public:
   /** Pairs of bodies, by number, that it keeps from passing through each other;
       (a, a): parts of one body. */
   virtual std::vector<std::pair<int, int>> holds_apart() const { return {}; }
-  /** Once, after the bodies were distributed. Collective. */
+  /** Once, after the bodies were distributed, ties before others: they change
+      the inertia of leaders and followers. Throws InputError, on all ranks,
+      where the bodies do not fit. Collective. */
   virtual void initialize() = 0;
-  /** Followers take the motion of their leaders. */
+  /** Sets velocities of owned nodes that others lead. Collective. */
   virtual void impose_kinematics() {}
-  /** Add forces to owned nodes. @p dt is the step just made. Collective. */
+  /** Add forces [N] to owned nodes. @p dt is the step just made [s]; 0 at the
+      start, where nothing has moved yet and springs do not act. Collective. */
   virtual void add_forces(const double dt) = 0;
   /** After an update between steps changed forces of bodies: pass the changes
       on. Collective. */
@@ -39,14 +48,20 @@ public:
   /** Work of the current forces along half a step's motion, @p half_dt times
       the current velocities (called before and after each drift). */
   virtual void accumulate_work(const double /*half_dt*/) {}
+  /** Largest stable step that it asks for, seen from this rank; none where it
+      keeps itself stable. */
   virtual StableStep stable_step() const { return {}; }
-  /** Searches that are due. Collective. */
+  /** Searches that are due before step @p step of length @p dt [s].
+      Collective. */
   virtual void update_search(const unsigned int /*step*/, const double /*dt*/)
   {
   }
+  /** Add this rank's share of what it took from the bodies [J]. */
   virtual void add_energies(EnergyLedger &) const {}
-  /** Collective, same on all ranks. */
+  /** For results, e.g. tied nodes, penetration. Collective, same on all
+      ranks. */
   virtual Measures measure() const { return {}; }
+  /** Everything that a restart needs and initialize() does not find. */
   virtual void visit_state(StateVisitor &) {}
 };
 } // namespace sabot

@@ -8,28 +8,42 @@
 
 namespace sabot
 {
-/** Normal and friction forces at the slots of a halo, and their work on the
-    owned nodes: what all contacts have. */
+/**
+ * Normal and friction forces at the slots of a halo, and their work on the
+ * owned nodes: what all contacts have. A coupling sets normal and friction for
+ * all slots; those of nodes owned here are complete, for whoever owns a node
+ * computes all that acts on it, and only they go to the bodies and into the
+ * work. Work is W = sum f . v dt with the trapezoidal rule: half with the
+ * forces before, half with those after each drift. Sums are exact (ExactSum),
+ * so that they do not depend on the number of ranks.
+ */
 class HaloForces
 {
 public:
   AlignedVector<Vec> normal, friction; // per slot [N]
 
-  /** For a halo of @p n slots. */
+  /** For a halo of @p n slots; all forces zero. Work done so far stays. */
   void resize(const std::size_t n);
+  /** All forces zero. */
   void clear();
+  /** Adds normal + friction of the owned nodes to their bodies' forces. */
   void add_to_bodies(const NodeHalo &halo);
+  /** Work of the present forces along @p half_dt times the bodies' present
+      velocities, on owned nodes. */
   void accumulate_work(const NodeHalo &halo, const double half_dt);
-  /** What the forces took from the bodies. */
+  /** What the forces took from the bodies, this rank's share: -W, so that
+      stored and dissipated energy are positive. */
   void add_energies(EnergyLedger &ledger) const;
-  /** Contact and friction energy. Collective. */
+  /** Appends "contact energy" and "friction energy" [J]. Collective, the same
+      on all ranks. */
   void add_measures(Measures &measures, MPI_Comm communicator) const;
-  /** After resize(). */
+  /** After resize(): forces are part of the state, for half of their work along
+      the next step is still to be counted. */
   void visit_state(StateVisitor &visitor);
 
 private:
-  AlignedVector<Vec> total;
-  ExactSum contact_work, friction_work; // [J]
+  AlignedVector<Vec> total;             // normal + friction, per slot [N]
+  ExactSum contact_work, friction_work; // on owned nodes [J]
 };
 } // namespace sabot
 

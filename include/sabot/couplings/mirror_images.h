@@ -8,7 +8,9 @@
 
 namespace sabot
 {
-/** @p v with its components along @p axes (a bit each) turned around. */
+/** @p v with its components along @p axes turned around: bit d of it stands for
+    axis d. The mirror image of a vector (velocity, force, normal) in planes
+    across these axes; its own inverse. */
 inline Vec flipped(Vec v, const unsigned int axes)
 {
   for (int d = 0; d < 3; ++d)
@@ -17,12 +19,19 @@ inline Vec flipped(Vec v, const unsigned int axes)
   return v;
 }
 
-/** Images of points in the planes of symmetry near a place; image 0 is the
-    point itself. */
+/**
+ * Images of points in the planes of symmetry near a place. With p planes near
+ * there are 2^p images, numbered by the planes that they are mirrored in, a bit
+ * each; image 0 is the point itself. What presses near a plane presses on the
+ * half that is not modeled, too: its nodes are images of those that are.
+ * Planes are across axes, so mirroring commutes; two planes across the same
+ * axis (a slab between them) give images of images once each.
+ */
 class MirrorImages
 {
 public:
-  /** Of the @p planes those closer to @p place than @p distance. */
+  /** Take of the @p planes those closer to @p place than @p distance [m]: only
+      across those a point and its image can both be that close to the place. */
   void find(const std::vector<SymmetryPlane> &planes, const Vec place,
             const double distance)
   {
@@ -31,8 +40,10 @@ public:
       if (std::abs(place[plane.axis] - plane.coordinate) < distance)
         near.push_back(plane);
   }
+  /** Number of images, the point itself included. */
   unsigned int size() const { return 1u << near.size(); }
-  /** Axes along which vectors of this image are turned around. */
+  /** Axes along which vectors of this image are turned around, for
+      flipped(). */
   unsigned int axes(const unsigned int image) const
   {
     unsigned int turned = 0;
@@ -41,6 +52,7 @@ public:
         turned ^= 1u << near[i].axis;
     return turned;
   }
+  /** Where image number @p image of a point at @p x is [m]. */
   Vec operator()(Vec x, const unsigned int image) const
   {
     for (std::size_t i = 0; i < near.size(); ++i)
@@ -50,7 +62,7 @@ public:
   }
 
 private:
-  std::vector<SymmetryPlane> near;
+  std::vector<SymmetryPlane> near; // a bit of the image's number each
 };
 } // namespace sabot
 

@@ -8,7 +8,9 @@
 
 namespace sabot
 {
-/** A node among all bodies: body number and global number in the body. */
+/** A node among all bodies: body number and global number in the body. Sorted
+    by body, then by number, which is the order of every sum over nodes. Ranks
+    send it as it is in memory. */
 struct NodeKey
 {
   std::int32_t body;
@@ -26,9 +28,11 @@ struct NodeKey
 };
 
 /**
- * Copies of the motion of a few nodes of any bodies, wherever they live:
- * what a coupling needs to compute its forces. Slots are numbered owned nodes
- * first.
+ * Copies of the motion of a few nodes of any bodies, wherever they live: what a
+ * coupling needs to compute its forces. Each node has a slot; slots are
+ * numbered owned nodes first, ascending by key, then those of other ranks,
+ * ascending. A node that another rank asks for has a slot on its owner, too,
+ * whether that rank asked for it or not.
  */
 class NodeHalo
 {
@@ -37,48 +41,62 @@ public:
       indexed by NodeKey::body. Collective. */
   void build(const std::vector<Body *> &bodies, std::vector<NodeKey> keys,
              MPI_Comm communicator);
-  /** Refresh position, velocity and inertia of all slots. Collective. */
+  /** Refresh position, velocity and inertia of all slots from the bodies, in
+     the current frame. A tied follower, which has no inertia of its own, counts
+      with its lumped mass: a safe (low) measure of what resists. Collective. */
   void update();
-  /** Present flow stress at all slots [Pa]. Collective. */
+  /** Present uniaxial flow stress at all slots [Pa], Body::flow_stress(). Costs
+      a return mapping per node: asked for at searches only. Collective. */
   void find_flow_stress(std::vector<double> &of_slots) const;
-  /** Slot of a key that was asked for. */
+  /** Slot of a key that was asked for; std::logic_error for another one. Costs
+      the logarithm of size(). */
   std::size_t slot(const NodeKey &key) const;
-  /** Fill the entries of the nodes owned elsewhere. Collective. */
+  /** Fill the entries of the nodes owned elsewhere, @p data [size()], with what
+      their owners have in theirs. Collective. */
   template <typename T>
   void update_ghosts(T *data) const
   {
     exchange.update(data);
   }
-  /** Body and local number of an owned slot. */
+  /** Body and local number of an owned slot, @p slot < n_owned(). */
   const Body &body(const std::size_t slot) const
   {
     return *all_bodies[owned_body[slot]];
   }
   std::size_t local(const std::size_t slot) const { return owned_local[slot]; }
-  /** Add slot forces of the owned nodes to their bodies. */
+  /** Add slot forces [N] of the owned nodes to their bodies; those of other
+      slots are left, for their owners compute them, too. */
   void add_to_bodies(const AlignedVector<Vec> &force) const;
 
   std::size_t n_owned() const { return owned_body.size(); }
   std::size_t size() const { return key_of_slot.size(); }
   const NodeKey &key(const std::size_t slot) const { return key_of_slot[slot]; }
-  /** Velocity of an owned slot in its body, now. */
+  /** Velocity of an owned slot in its body, now, [m/s]; the copy in velocity is
+      that of the last update(). */
   Vec body_velocity(const std::size_t slot) const
   {
     return all_bodies[owned_body[slot]]->nodes().velocity[owned_local[slot]];
   }
 
-  AlignedVector<Vec> position, velocity; // [size()]
-  std::vector<double> inertia;           // [size()]
+  AlignedVector<Vec> position, velocity; // [size()], m and m/s
+  std::vector<double> inertia; // [size()], mass with that of followers [kg]
 
 private:
+  /** Where the slots of the owned nodes @p owned are. */
+  void take_owned(const std::vector<NodeKey> &owned);
+  /** Slots for owned nodes that other ranks ask for. */
+  void add_asked(const std::vector<NodeKey> &asked);
+
   std::vector<Body *> all_bodies;
   std::vector<NodeKey> key_of_slot; // owned ascending, then others ascending
+  // Of the owned slots.
   std::vector<std::int32_t> owned_body;
   std::vector<std::size_t> owned_local;
   GhostExchange exchange;
 };
 
-/** Concatenate the vectors of all ranks in rank order. Collective. */
+/** Concatenate the vectors of all ranks in rank order; T goes as it is in
+    memory. Collective, the same on all ranks. */
 template <typename T>
 std::vector<T> gather_all(const std::vector<T> &mine, MPI_Comm communicator)
 {

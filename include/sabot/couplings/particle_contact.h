@@ -23,7 +23,8 @@ namespace sabot
 class ParticleContact : public Coupling
 {
 public:
-  /** @p pairs: of bodies, as indices. */
+  /** @p bodies: all of the scene, by number; @p pairs: of bodies of particles,
+      each once; both sides' nodes are held. */
   ParticleContact(const std::string &name, const std::vector<Body *> &bodies,
                   const std::vector<std::pair<int, int>> &pairs,
                   const ContactOptions &options, MPI_Comm communicator);
@@ -42,7 +43,9 @@ public:
   void visit_state(StateVisitor &visitor) override;
 
 private:
-  /** A node and the particles of one other body that it may touch. */
+  /** A node and the particles of one other body that it may touch. Part of
+      checkpoints, and sent between ranks, so plain numbers; n_members of the
+      list of members belong to it. */
   struct Group
   {
     NodeKey node;
@@ -57,18 +60,31 @@ private:
       return node == o.node ? other < o.other : node < o.node;
     }
   };
-  /** What the groups' numbers stand for on this rank. */
+  /** What the groups' numbers stand for on this rank: slots of the halo. */
   struct Slots
   {
     std::size_t node, first_member, last_member; // of member_slots
   };
+  /** New groups, which inherit their memories. Bodies whose boxes are apart are
+      not searched until they may have met. Collective. */
   void search();
+  /** @p mine, @p its: surfaces of the two bodies. */
+  Group make_group(const SearchedParticle &node, const int other,
+                   const std::int64_t n_members, const ContactSurface &mine,
+                   const ContactSurface &its) const;
+  /** Of all ranks' groups those that touch nodes owned here, in one order. */
+  void keep_relevant(const std::vector<Group> &all,
+                     const std::vector<Member> &all_members);
   /** Halo and slots of the groups. Collective. */
   void build_halo();
   /** Friction that the node and what it touches bear [N]. */
   double largest_friction(const Group &group, const Slots &at) const;
+  /** Motion of all slots, and what surface and volume they are part of now.
+      Collective. */
   void update_halo();
-  /** Weights go to near[]. */
+  /** Where the node stands: against the sound surface, if it is on the surface
+      of its own body and there is one, else against the volume. Weights go to
+      near[]. */
   Standing locate(const Group &group, const Slots &slots);
   /** Adds a contact point where the other body holds the node of group
       @p number. At the start (@p dt = 0) bodies may touch already. */
@@ -76,6 +92,7 @@ private:
   /** Against what is near, as one: sets its velocity [m/s] and reduced mass
       [kg]. */
   void find_motion(const Slots &at, ContactPoint &point) const;
+  /** Forces on the node; opposite, in parts, on what it presses on. */
   void push(const ContactPoint &point);
 
   const std::vector<Body *> bodies;

@@ -8,7 +8,8 @@
 
 namespace sabot
 {
-/** A particle near other bodies. */
+/** A particle near other bodies, as ranks send it to each other. Reaches hold
+    until the bodies have moved by the skin. */
 struct SearchedParticle
 {
   NodeKey key;
@@ -21,7 +22,7 @@ struct SearchedParticle
   std::int32_t is_open;       // on the surface, or loose
 };
 
-/** A particle that a node may touch. */
+/** A particle that a node may touch; goes into checkpoints. */
 struct Member
 {
   NodeKey key;
@@ -40,11 +41,15 @@ public:
   /** Spacings sideways and in depth from which a surface particle counts. */
   static constexpr double reach = 1.5;
 
+  /** @p bodies: all of the scene, by number, those in @p pairs of particles;
+      @p skin: that bodies may move against each other until the next search
+      [m]. Collective. */
   ParticleSearch(const std::vector<Body *> &bodies,
                  const std::vector<std::pair<int, int>> &pairs,
                  const double skin, MPI_Comm communicator);
 
-  /** Travel that bodies need to come within the skin of touching. */
+  /** Travel that bodies need to come within the skin of touching [m], by their
+      boxes; above 0 nothing else was looked for. */
   double gap() const { return smallest_gap; }
   /** Particles owned here, by body and number. */
   const std::vector<SearchedParticle> &mine() const { return my_particles; }
@@ -52,9 +57,18 @@ public:
    */
   void near(const SearchedParticle &node, const int other,
             std::vector<Member> &found) const;
+  /** Body::contact_surface() of a body in a pair. */
   const ContactSurface &surface(const int body) const { return surfaces[body]; }
 
 private:
+  /** The particles of a body that are owned here and lie within the extents of
+      the others. */
+  void find_mine(const Body &body, const std::int32_t number,
+                 const std::vector<int> &others, const std::vector<Box> &extent,
+                 const double skin);
+  /** What may be touched, of all ranks, in buckets. Collective. */
+  void gather_touchable(MPI_Comm communicator);
+
   std::vector<ContactSurface> surfaces;
   double smallest_gap = 0.;
   std::vector<SearchedParticle> my_particles, touchable; // of all ranks

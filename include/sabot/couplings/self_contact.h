@@ -8,10 +8,13 @@
 
 namespace sabot
 {
+/** Contact of single particles. The stability fraction bounds the stiffness of
+    all partners together, so it may be larger than that of one spring. */
 struct SelfContactOptions : ContactOptions
 {
   SelfContactOptions() { stability_fraction = 0.4; }
-  double contact_distance = 0.9; // of the spacing
+  /** d0 over the spacing: below it debris repels. */
+  double contact_distance = 0.9;
 };
 
 /**
@@ -30,7 +33,8 @@ struct SelfContactOptions : ContactOptions
 class SelfContact : public Coupling
 {
 public:
-  /** @p pairs: of bodies that may meet, as indices; (a, a) for one body. */
+  /** @p bodies: all of the scene, by number; @p pairs: of bodies of particles
+      that may meet; (a, a): parts of one body. */
   SelfContact(const std::string &name, const std::vector<Body *> &bodies,
               const std::vector<std::pair<int, int>> &pairs,
               const SelfContactOptions &options, MPI_Comm communicator);
@@ -50,6 +54,7 @@ public:
   void visit_state(StateVisitor &visitor) override;
 
 private:
+  /** Part of checkpoints, so plain numbers; slots follow from the keys. */
   struct Pair
   {
     NodeKey first, second;   // first < second
@@ -59,13 +64,21 @@ private:
     double largest_friction; // that the metals bear [N]
     std::size_t slot[2];
   };
+  /** Pairs, halo and, where friction is held below yield, what the metals
+      bear. Collective. */
   void search();
+  /** New pairs, which remember the distance at which they were first met.
+      Collective. */
+  void find_pairs();
+  Pair make_pair(const NodeKey &a, const NodeKey &b, const double distance,
+                 const DebrisView &of_a, const DebrisView &of_b) const;
   /** Slots of the nodes of all pairs. Collective. */
   void build_halo();
   /** Scale the stiffness of all that touches a particle below its bound.
       Collective. */
   void soften(const double dt);
-  void push(const ContactPoint &point);
+  /** Forces on the second particle, the opposite on the first. */
+  void push(const ContactPoint &on_second);
 
   const std::vector<Body *> bodies;
   const std::vector<std::pair<int, int>> body_pairs;

@@ -21,8 +21,9 @@ namespace sabot
 class Tie : public Coupling
 {
 public:
-  /** @p tolerance: distance from a face, in follower spacings, up to which a
-      node counts as lying on it. */
+  /** @p bodies: all of the scene; @p follower, @p leader: numbers among them;
+      the leader's surface has faces. @p tolerance: distance from a face, in
+      follower spacings, up to which a node counts as lying on it. */
   Tie(const std::string &name, const std::vector<Body *> &bodies,
       const int follower, const int leader, const double tolerance,
       MPI_Comm communicator);
@@ -39,6 +40,8 @@ public:
   StableStep stable_step() const override;
 
 private:
+  /** A follower and its leaders, by global numbers of their bodies; sum of the
+      weights 1. Sent between ranks as it is in memory. */
   struct Constraint
   {
     GlobalIndex follower;
@@ -56,12 +59,22 @@ private:
     std::size_t slot;
     double weight;
   };
+  /** Of all nodes of the follower on the leader's surface, in the reference
+      configuration; by follower, the same on every rank. Collective. */
   std::vector<Constraint> find_constraints() const;
   static void use_face(Constraint &constraint);
+  /** Puts all followers on the faces where leaders would lose too much mass.
+      @return factor of the stable step. Collective. */
+  double keep_mass(std::vector<Constraint> &constraints) const;
   /** The least part of its mass that any leader keeps, and what negative
       weights take off the square of the stable step. Collective. */
   std::pair<double, double>
   judge(const std::vector<Constraint> &constraints) const;
+
+  /** Leaders of the followers that are owned here. Collective. */
+  void prepare_motion(const std::vector<Constraint> &constraints);
+  /** Followers of the leaders that are owned here. Collective. */
+  void prepare_forces(const std::vector<Constraint> &constraints);
 
   const std::vector<Body *> bodies;
   const int follower, leader;

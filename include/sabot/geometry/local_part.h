@@ -13,7 +13,12 @@ namespace sabot
 /**
  * The part of a mesh that a rank holds: every cell with a node that it owns,
  * and all nodes of these cells. Cells at the border stand on several ranks and
- * are owned by the one that owns their lowest node.
+ * are owned by the one that owns their lowest node: all of them compute such a
+ * cell, the owner reports it. So a rank finds the forces on its nodes by
+ * itself.
+ *
+ * Numbers of nodes and cells in the mesh are global and the same on every rank;
+ * local numbers count what this rank holds.
  */
 struct LocalPart
 {
@@ -28,7 +33,8 @@ struct LocalPart
   connectivity(const HexMesh &mesh) const;
 };
 
-/** @p owner: rank of every node of the mesh. Not collective. */
+/** @p owner: rank of every node of the mesh, the same on every rank. A rank
+    without nodes gets an empty part. Not collective. */
 LocalPart find_local_part(const HexMesh &mesh, const std::vector<int> &owner,
                           const int rank);
 } // namespace sabot

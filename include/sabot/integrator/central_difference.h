@@ -13,7 +13,12 @@
 
 namespace sabot
 {
-/** The step a scene can make next, the same on every rank. */
+/**
+ * The step a scene can make next, the same on every rank.
+ * Least over bodies and couplings of their own estimates, 2/omega_max or h/c.
+ * Of equal ones the lowest body, then the lowest item is named, so that the log
+ * does not depend on the ranks.
+ */
 struct StepProposal
 {
   double dt;           // [s], before the step factor
@@ -25,31 +30,71 @@ struct StepProposal
  * Central difference (Newmark beta = 0, gamma = 1/2; Wu & Wu 2018, Eq. 10) with
  * variable step in kick-drift-kick form: v(n+1/2) = v(n) + dt/2 a(n),
  * x(n+1) = x(n) + dt v(n+1/2), v(n+1) = v(n+1/2) + dt/2 a(n+1).
+ * Of second order in dt and symplectic for constant steps; explicit, stable
+ * without damping for dt < 2/omega_max. Velocities that are imposed, by
+ * boundary conditions and ties, are set after each kick, so that positions
+ * follow from them. Masses are lumped: a = force/inertia, and nodes with
+ * inertia 0 follow a tie.
  */
 class CentralDifference
 {
 public:
+  /**
+   * All are kept by reference; bodies must have been distributed before
+   * initialize().
+   */
   CentralDifference(std::vector<std::unique_ptr<Body>> &bodies,
                     std::vector<std::unique_ptr<Coupling>> &couplings,
                     Timers &timers, MPI_Comm communicator);
 
-  /** Initial velocities and forces. Collective. */
+  /**
+   * Initial velocities and forces. Collective.
+   * Imposes velocities at the present time and computes forces with dt = 0.
+   */
   void initialize();
-  /** Advance by @p dt. Collective. Throws PhysicsError on all ranks when a
-      body went wrong on any. */
+  /**
+   * Advance by @p dt. Collective. Throws PhysicsError on all ranks when a body
+   * went wrong on any.
+   * In this order: half kick, imposed velocities, work of the half step with
+   * the old forces, drift, forces at t + dt (ghosts exchanged first), work of
+   * the half step with the new forces, half kick, imposed velocities. Each
+   * half's work is taken with v(n+1/2), so that
+   *   W = dt/2 v(n+1/2) . (f(n) + f(n+1))
+   * differs from the change of kinetic energy by dt^2/(8 m) (|f(n+1)|^2 -
+   * |f(n)|^2), which is of second order and does not add up. @p dt > 0 [s].
+   */
   void advance(const double dt);
-  /** Kernel updates and the like, after @p step steps. Collective. */
+  /**
+   * Kernel updates and the like, after @p step steps. Collective.
+   * Where a body says that something changed couplings pass on what is there
+   * now, as ties do with forces: the next half kick feels what is there now.
+   */
   void update_topology(const unsigned int step);
-  /** Least stable step over bodies, couplings and ranks. Collective. */
+  /**
+   * Least stable step over bodies, couplings and ranks. Collective.
+   * One minimum over ranks for step and interruption, one for who limits it.
+   */
   StepProposal propose(const bool interrupted) const;
 
+  /** Of the state [s], that of positions; grows by dt in advance(). */
   double time = 0.;
 
 private:
+  /** v += dt force/inertia of owned nodes. */
   void kick(const double dt);
+  /** Bodies at the present time, then couplings. */
   void impose_velocities();
+  /** Of what acts from outside and in couplings, over @p half_dt [s]. */
   void accumulate_work(const double half_dt);
+  /**
+   * Of bodies first, whose problems all ranks agree on, then of couplings, each
+   * with its search before.
+   */
   void compute_forces(const double dt);
+  /**
+   * Throws PhysicsError with the message of the lowest rank that has one; an
+   * empty @p problem is none. Collective.
+   */
   void agree_on_problems(const std::string &problem) const;
 
   std::vector<std::unique_ptr<Body>> &bodies;

@@ -8,7 +8,10 @@
 
 namespace sabot
 {
-/** What bounds a step besides the stable step of bodies and couplings. */
+/**
+ * What bounds a step besides the stable step of bodies and couplings.
+ * The defaults bound nothing but factor and growth.
+ */
 struct StepLimits
 {
   double factor = 0.9; // of the least stable step
@@ -31,6 +34,7 @@ struct StepLimits
 class Stepper
 {
 public:
+  /** References are kept; @p limits are copied. */
   Stepper(std::vector<std::unique_ptr<Body>> &bodies,
           std::vector<std::unique_ptr<Coupling>> &couplings,
           const StepLimits &limits, Timers &timers, MPI_Comm communicator)
@@ -40,18 +44,35 @@ public:
 
   /** Initial velocities and forces. */
   void initialize() { integrator.initialize(); }
-  /** The least stable step and who limits it. @p interrupted: whether this
-      rank was asked to stop. */
+  /**
+   * The least stable step and who limits it. @p interrupted: whether this rank
+   * was asked to stop.
+   * Before factor and limits [s].
+   */
   StepProposal propose(const bool interrupted) const
   {
     return integrator.propose(interrupted);
   }
-  /** The step to make now [s]. */
+  /**
+   * The step to make now [s].
+   *   dt = min(factor dt_stable, largest, growth dt_last),
+   * growth from the second step on; where that reaches the end time to 1e-9,
+   * just what is left to it. The same on all ranks, as the proposal is. A step
+   * that is not positive is the caller's to refuse.
+   */
   double choose(const StepProposal &proposal) const;
-  /** Advance by @p dt; throws PhysicsError on all ranks when a body went wrong
-      on any. */
+  /**
+   * Advance by @p dt; throws PhysicsError on all ranks when a body went wrong
+   * on any.
+   * Any positive step may be given; it is the one that growth is measured by
+   * next.
+   */
   void advance(const double dt);
-  /** Kernel updates, failure, erosion: what is due between steps. */
+  /**
+   * Kernel updates, failure, erosion: what is due between steps.
+   * With the number of steps made, on which intervals of kernel updates and
+   * searches depend.
+   */
   void update() { integrator.update_topology(n_steps); }
   /** Time, number and size of steps. */
   void visit_state(StateVisitor &visitor);
@@ -59,6 +80,7 @@ public:
   double time() const { return integrator.time; } // [s]
   unsigned int steps() const { return n_steps; }  // made so far
   double last_step() const { return dt; }         // [s], 0 at the start
+  /** To 1e-12 of the end time, as sums of steps are not exact. */
   bool is_finished() const { return time() >= limits.end_time * (1. - 1e-12); }
 
   const StepLimits limits;

@@ -16,6 +16,14 @@ namespace sabot
  * Voronoi of corners, edges and face (Ericson, Real-Time Collision Detection,
  * 2005, 5.1.5), which need no division but in the region that is found. Any
  * frame and unit of length; the triangle must have an area.
+ *
+ * With d_ab = (b - a) . (p - a) and so on the products d1 to d6 of the code
+ * tell the region, and va, vb, vc are the areas of the parts opposite a, b, c,
+ * up to one common factor, so that inside
+ *   w = (va, vb, vc)/(va + vb + vc).
+ * Of a point that projects on a corner exactly the corner has all the weight;
+ * ties between regions go to the first one asked, in the order a, b, ab, c, ac,
+ * bc. Without an area a division may be 0/0 and give what is not a number.
  */
 inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
                                                  const Vec b, const Vec c)
@@ -59,20 +67,51 @@ inline std::array<double, 3> closest_on_triangle(const Vec p, const Vec a,
     usually meters in the present configuration. */
 struct FaceProjection
 {
-  /** To the closest point; infinite while there is none. */
+  /**
+   * To the closest point; infinite while there is none.
+   * Of the offset p - foot [m^2].
+   */
   double distance_square = std::numeric_limits<double>::infinity();
-  double facing = 0.;   // |cos| of the angle between offset and face normal
-  double gap = 0.;      // signed distance, negative inside
+  /**
+   * |n . offset|/|offset|: 1 above the inside of the face, less beside it, and
+   * 1 by definition where the point lies on the face. Decides between triangles
+   * that share the closest point, as at an edge.
+   */
+  double facing = 0.; // |cos| of the angle between offset and face normal
+  /**
+   * Above the inside of the face the distance from its plane, beside it the
+   * distance to the edge or corner with the sign of that of the plane. [m]
+   */
+  double gap = 0.; // signed distance, negative inside
+  /**
+   * The face's above its inside, the offset over the gap beside it; in both
+   * cases gap times normal is the vector from the foot to the point.
+   */
   Vec normal = {};      // unit, outward, along which the gap is measured
   Vec face_normal = {}; // unit, outward, of the triangle
-  double along = 0.;    // signed distance from the triangle's plane
-  /** Of the four corners, which give the closest point; sum 1. */
+  /**
+   * Less than the gap in size where the foot is on an edge or a corner: what
+   * tells a point beside the face from one behind it. [m]
+   */
+  double along = 0.; // signed distance from the triangle's plane
+  /**
+   * Of the four corners, which give the closest point; sum 1.
+   * A quarter of the center's weight is in each. A contact force on the point
+   * acts on the four corners by these weights with the opposite sign, which
+   * keeps linear momentum; along the normal it keeps angular momentum, too, as
+   * the foot is their weighted mean.
+   */
   std::array<double, 4> weight{{0., 0., 0., 0.}};
 };
 
-/** Whether all of the quadrilateral x is farther from p than @p distance, seen
-    from the ball around its corners: a cheap first question, which says no
-    where it is not sure. */
+/**
+ * Whether all of the quadrilateral x is farther from p than @p distance, seen
+ * from the ball around its corners: a cheap first question, which says no where
+ * it is not sure.
+ * The ball has the mean of the corners as its center c and the distance of the
+ * farthest corner as its radius r, so the test is |p - c| > distance + r. All
+ * four triangles of project_on_face() lie in the ball, as a ball is convex.
+ */
 inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
                        const double distance)
 {
@@ -91,6 +130,13 @@ inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
  * edges and corners. Of triangles that are equally close the one that faces the
  * point most counts. Corners counter-clockwise seen from outside; triangles
  * without an area are skipped.
+ *
+ * The center has a quarter of each corner, and so the foot x and its weights
+ * w_a fulfill x = sum w_a x_a with sum w_a = 1 and w_a >= 0. Within 1e-12 of
+ * the square of the distance two triangles count as equally close; a foot
+ * counts as inside where the offset is parallel to the normal to 1e-9, or the
+ * point lies on the face to 1e-12 of its size. Without any triangle that has an
+ * area the distance stays infinite, and the caller has to look at that.
  */
 inline FaceProjection project_on_face(const Vec p, const std::array<Vec, 4> &x)
 {

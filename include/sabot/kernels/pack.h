@@ -21,16 +21,32 @@
  */
 namespace sabot
 {
+/**
+ * A GCC vector: +, -, *, / and comparisons act lane by lane, a double on either
+ * side of an operator stands for four. Objects must lie at multiples of 32
+ * bytes, which AlignedVector and automatic variables do. Without AVX the
+ * compiler splits it into two SSE registers; the operations and their order
+ * stay the same.
+ */
 typedef double Pack __attribute__((vector_size(32)));
 constexpr std::size_t n_lanes = 4;
 
-/** Four 3x3 matrices: m[i][j] holds the entry (i, j) of each. */
+/**
+ * Four 3x3 matrices: m[i][j] holds the entry (i, j) of each.
+ * The entries of one matrix are 32 bytes apart: loops over i and j are over
+ * whole registers. Frames are those of Mat: of a deformation gradient i is of
+ * the present configuration, j of the reference. Not initialized.
+ */
 struct PackMat
 {
   Pack m[3][3];
 };
 
-/** The greater of a and b in each lane; b where either is not a number. */
+/**
+ * The greater of a and b in each lane; b where either is not a number.
+ * A comparison with something that is not a number is false, hence the second
+ * operand, as maxpd has it.
+ */
 inline Pack pack_max(const Pack a, const Pack b)
 {
   return a > b ? a : b;
@@ -42,7 +58,12 @@ inline Pack pack_min(const Pack a, const Pack b)
   return a < b ? a : b;
 }
 
-/** Square root of each lane, correctly rounded. */
+/**
+ * Square root of each lane, correctly rounded.
+ * IEEE 754 demands this of the instruction and of std::sqrt alike, so that both
+ * branches give the same bits. Negative lanes become not-a-number, without a
+ * trap.
+ */
 inline Pack pack_sqrt(const Pack a)
 {
 #ifdef __AVX__
@@ -53,10 +74,16 @@ inline Pack pack_sqrt(const Pack a)
 #endif
 }
 
-/** Cube root for 1e-3 < a < 1e3, to round-off: Halley's iteration,
-    y <- y (y^3 + 2 a)/(2 y^3 + a), from the tangent at 1. Of a volume ratio,
-    which stays well within these bounds in any cell that a run keeps; a fixed
-    number of iterations has no branch. */
+/**
+ * Cube root for 1e-3 < a < 1e3, to round-off: Halley's iteration, y <- y (y^3 +
+ * 2 a)/(2 y^3 + a), from the tangent at 1. Of a volume ratio, which stays well
+ * within these bounds in any cell that a run keeps; a fixed number of
+ * iterations has no branch.
+ *
+ * Halley's iteration converges cubically, and six steps suffice from the first
+ * guess (2 + a)/3 over the whole interval given; outside of it the result
+ * may be off, without any notice.
+ */
 inline Pack pack_cbrt(const Pack a)
 {
   Pack y = (2. + a) / 3.;
@@ -68,7 +95,10 @@ inline Pack pack_cbrt(const Pack a)
   return y;
 }
 
-/** Four doubles at @p p, which is aligned to 32 bytes. */
+/**
+ * Four doubles at @p p, which is aligned to 32 bytes.
+ * At other addresses the aligned load would fault.
+ */
 inline Pack load_pack(const double *const p)
 {
   return *reinterpret_cast<const Pack *>(p);
@@ -80,8 +110,13 @@ inline void store_pack(double *const p, const Pack a)
   *reinterpret_cast<Pack *>(p) = a;
 }
 
-/** The x, y and z of four nodal vectors, one @p node of each cell: out[d] holds
-    component d of the four. Three shuffles of four loads. */
+/**
+ * The x, y and z of four nodal vectors, one @p node of each cell: out[d] holds
+ * component d of the four. Three shuffles of four loads.
+ * The fourth lane of the vectors is not read into the result. Indices count
+ * vectors from the start of @p nodal and are not checked; two lanes may have
+ * the same one.
+ */
 inline void gather(const Vec *const nodal, const std::uint32_t node[n_lanes],
                    Pack out[3])
 {
@@ -96,7 +131,11 @@ inline void gather(const Vec *const nodal, const std::uint32_t node[n_lanes],
   out[2] = __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7);
 }
 
-/** Back from components: one nodal vector per lane, fourth components zero. */
+/**
+ * Back from components: one nodal vector per lane, fourth components zero.
+ * The inverse of gather(): out[k] = (x[k], y[k], z[k], 0) for the lane k. Sums
+ * over cells that share a node are left to the caller.
+ */
 inline void unpack(const Pack x, const Pack y, const Pack z, Vec out[n_lanes])
 {
   const Pack zero = {};
@@ -110,7 +149,12 @@ inline void unpack(const Pack x, const Pack y, const Pack z, Vec out[n_lanes])
   out[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
 }
 
-/** det a of each lane, expanded by the first row. */
+/**
+ * det a of each lane, expanded by the first row.
+ * Of a deformation gradient J, the present volume over that of the reference.
+ * The same expansion as that of determinant(Mat), to which it is equal to
+ * round-off.
+ */
 inline Pack determinant(const PackMat &a)
 {
   return a.m[0][0] * (a.m[1][1] * a.m[2][2] - a.m[1][2] * a.m[2][1]) +
@@ -118,8 +162,15 @@ inline Pack determinant(const PackMat &a)
          a.m[0][2] * (a.m[1][0] * a.m[2][1] - a.m[1][1] * a.m[2][0]);
 }
 
-/** det a times the inverse of a, the transposed cofactors: no division, and
-    right where a is singular. */
+/**
+ * det a times the inverse of a, the transposed cofactors: no division, and
+ * right where a is singular.
+ *   adj(a)_ij = a_ps a_qt - a_pt a_qs,
+ * with (p, q) the indices that follow j and (s, t) those that follow i, in
+ * cyclic order, by which the sign comes by itself. a adj(a) = det(a) 1; of a
+ * deformation gradient adj(F)^T = J F^-T takes areas of the reference to the
+ * present (Nanson).
+ */
 inline PackMat adjugate(const PackMat &a)
 {
   PackMat r;
@@ -133,7 +184,11 @@ inline PackMat adjugate(const PackMat &a)
   return r;
 }
 
-/** The matrix of one lane. */
+/**
+ * The matrix of one lane.
+ * For what has no form without branches, as polar decompositions; @p lane is
+ * below n_lanes and not checked.
+ */
 inline Mat lane_of(const PackMat &a, const std::size_t lane)
 {
   Mat r;
@@ -142,7 +197,10 @@ inline Mat lane_of(const PackMat &a, const std::size_t lane)
   return r;
 }
 
-/** c_ij = a_ik b_kj of each lane. */
+/**
+ * c_ij = a_ik b_kj of each lane.
+ * Three products each, summed from k = 0 to 2 in every lane.
+ */
 inline PackMat multiply(const PackMat &a, const PackMat &b)
 {
   PackMat c;

@@ -26,6 +26,12 @@ namespace sabot
  * gradients fade there instead of growing without bound.
  * @param threshold  of the eigenvalues, in their unit, > 0
  * @param n_damped   out: number of directions below the threshold
+ *
+ * Eigenvalues below zero, which round-off makes, count as zero. Where none is
+ * below the threshold the result is the inverse to round-off. At the threshold
+ * both branches of g are 1/threshold, its largest value, which thus bounds the
+ * norm of the result. @p moment is symmetric; of it only the lower triangle is
+ * read (Eigen's SelfAdjointEigenSolver, iterative form).
  */
 inline Mat damped_inverse(const Mat &moment, const double threshold,
                           int &n_damped)
@@ -44,9 +50,15 @@ inline Mat damped_inverse(const Mat &moment, const double threshold,
                     solver.eigenvectors().transpose());
 }
 
-/** Remove the tensile principal values of the symmetric tensor s (components
-    xx, yy, zz, xy, yz, xz; positive in tension): what a crack still
-    carries. */
+/**
+ * Remove the tensile principal values of the symmetric tensor s (components xx,
+ * yy, zz, xy, yz, xz; positive in tension): what a crack still carries.
+ *   s <- s - sum_{e_i > 0} e_i n_i (x) n_i
+ * with eigenvalues e_i and directions n_i of s. In place, in the unit it has; a
+ * tensor without tension returns bit by bit as it was. By the closed form
+ * (computeDirect), the error of which is about 1e-8 of the largest entry where
+ * eigenvalues are close: what is left of tension is of that size.
+ */
 inline void cut_tension(double s[6])
 {
   Eigen::Matrix3d m;
@@ -63,8 +75,12 @@ inline void cut_tension(double s[6])
   std::copy(cut, cut + 6, s);
 }
 
-/** Largest principal value of the symmetric tensor s (xx, yy, zz, xy, yz,
-    xz), in its unit; of a stress positive in tension. */
+/**
+ * Largest principal value of the symmetric tensor s (xx, yy, zz, xy, yz, xz),
+ * in its unit; of a stress positive in tension.
+ * By the closed form for 3x3 matrices, eigenvalues only. Compared with a
+ * tensile strength it is the criterion of Rankine.
+ */
 inline double largest_principal(const double s[6])
 {
   Eigen::Matrix3d m;
@@ -74,7 +90,11 @@ inline double largest_principal(const double s[6])
   return solver.eigenvalues()[2];
 }
 
-/** Middle eigenvalue of a symmetric matrix, in its unit. */
+/**
+ * Middle eigenvalue of a symmetric matrix, in its unit.
+ * Of the moment matrix of a set of neighbors: zero where they lie on a line,
+ * positive where they span at least a plane.
+ */
 inline double middle_eigenvalue(const Mat &moment)
 {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -88,6 +108,12 @@ inline double middle_eigenvalue(const Mat &moment)
  * initial semi-axes @p axes [m], h = h' diag(axes) and h' = U S V^T, limit the
  * singular values to S in [low, high]; rotation and axes of stretch stay.
  * @pre 0 < low < 1 < high. Kernels far from the limits return as they were.
+ *
+ * Column j of h over axes[j] makes h', the stretch of the support since the
+ * start, without unit; its singular values are those of the square root of h'^T
+ * h'. The cheap test: where the Frobenius norm of h'^T h' - 1 is below min(1 -
+ * low^2, high^2 - 1) every singular value is within the limits. Singular values
+ * are taken as at least 1e-6 in the division, for supports that have collapsed.
  */
 inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
                         const double high)
@@ -115,7 +141,13 @@ inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
   return from_eigen(clamped);
 }
 
-/** The same for kernels that start as any regular matrix: h = h' @p initial. */
+/**
+ * The same for kernels that start as any regular matrix: h = h' @p initial.
+ * @p initial [m] maps the unit ball to the support at the start; it is inverted
+ * without a check of its determinant. The limits are those of the stretch h
+ * initial^-1, of which the first index is of the present frame, the second of
+ * the reference.
+ */
 inline Mat clamp_kernel(const Mat &h, const Mat &initial, const double low,
                         const double high)
 {

@@ -14,6 +14,15 @@ namespace sabot
  * rotation R = (1 - w/2)^-1 (1 + w/2) of the spin increment w = W dt (Hughes
  * and Winget 1980), exact for a rigid rotation when w is taken in the mid
  * configuration. @p spin: w_xy, w_yz, w_xz.
+ *
+ * W_ij = (dv_i/dx_j - dv_j/dx_i)/2 and w_xy is its entry (0, 1); arrays are
+ * [component][point], n entries each, rotated in place, in the unit they have.
+ * With the axial vector a of w/2 the rotation is
+ *   R = 1 + 2/(1 + a . a) (a^ + a^ a^),
+ * a^ the skew matrix of a, orthogonal to round-off for any spin; it turns by 2
+ * arctan |a|, short of the angle of the step by a term of third order.
+ * Invariants of the tensor are thus kept however large the step. (T. J. R.
+ * Hughes and J. Winget, Int. J. Numer. Meth. Eng. 15 (1980) 1862.)
  */
 inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
                              double *const t[6])
@@ -50,11 +59,16 @@ inline void rotate_symmetric(const std::size_t n, const double *const spin[3],
   }
 }
 
-/** Rotate the @p n strain increments (tensor components, not engineering
-    shear) of the middle configuration to the end of the
-    step, where the rotated stress is: by half of @p spin. Without it a
-    hypoelastic update is of first order only and a vibrating, spinning body
-    gains energy. At most @p capacity points. */
+/**
+ * Rotate the @p n strain increments (tensor components, not engineering shear)
+ * of the middle configuration to the end of the step, where the rotated stress
+ * is: by half of @p spin. Without it a hypoelastic update is of first order
+ * only and a vibrating, spinning body gains energy. At most @p capacity points.
+ *
+ * Here the increment is the symmetric part of dt dv/dx at x(n+1/2), whose axes
+ * are turned by half of the step's rotation against those at x(n+1). @p n above
+ * @p capacity would write beyond the buffer; it is not checked.
+ */
 template <std::size_t capacity>
 inline void rotate_strain_to_end(const std::size_t n,
                                  const double *const spin[3],
@@ -76,6 +90,12 @@ inline void rotate_strain_to_end(const std::size_t n,
  * the old (rotated) and the new stress it is the trapezoidal rule. Stress [Pa]
  * and strain increments by components [6][n], off-diagonal ones counted twice;
  * half_volume: half of the mean volume of the step [m^3]; energy [J].
+ *
+ * Twice per step:
+ *   dE = V/2 (sigma_n + sigma_n+1) : d_eps.
+ * Positive where the stress does work on the material, the internal energy's
+ * growth without heat. Stress and strain must be of the same frame, that of the
+ * end of the step. Arrays must not overlap.
  */
 inline void half_work(const std::size_t n, const double *const stress[6],
                       const double *const strain[6], const double *half_volume,
@@ -99,6 +119,12 @@ inline void half_work(const std::size_t n, const double *const stress[6],
  * @param c        speed of sound [m/s]
  * @param h        size of the cell in the direction of the shock [m]
  * @param rate     d [1/s]
+ *
+ * Positive in compression and to be taken off the normal stresses; it enters
+ * the forces and the energy, but no law's yield condition. With c1 = @p linear
+ * (about 0.06) and c2 = @p quadratic (about 1.5), both without unit: the first
+ * damps the ringing behind a front, the second sets the width of a strong one.
+ * Zero in expansion, so that rarefaction waves stay sharp.
  */
 inline double bulk_viscosity_pressure(const double density, const double c,
                                       const double h, const double rate,
@@ -109,8 +135,13 @@ inline double bulk_viscosity_pressure(const double density, const double c,
   return density * h * d * (linear * c + quadratic * h * d);
 }
 
-/** Von Mises stress sqrt(3/2 s : s) of the deviator s of one tensor (xx, yy,
-    zz, xy, yz, xz), in its unit. */
+/**
+ * Von Mises stress sqrt(3/2 s : s) of the deviator s of one tensor (xx, yy, zz,
+ * xy, yz, xz), in its unit.
+ * Tensor components, no engineering shears: off-diagonal ones count twice in s
+ * : s. Equals |sigma| in uniaxial stress and sqrt(3) |tau| in simple shear.
+ * Pressure has no part in it.
+ */
 inline double von_mises(const double s[6])
 {
   const double m = (s[0] + s[1] + s[2]) / 3.;

@@ -10,14 +10,24 @@ namespace sabot
  * subjected to large strains, high strain rates and high temperatures, 7th Int.
  * Symp. Ballistics, 1983; fracture: Eng. Fract. Mech. 21 (1985) 31, doi
  * 10.1016/0013-7944(85)90052-9. Letters as there.
+ *
+ * The manual's entries bear the names in words: "Initial yield stress" is A,
+ * "Hardening modulus" B, "Strain rate coefficient" C. Values are checked where
+ * the file is read: A > 0, T_melt > T_room, and with damage a positive fracture
+ * strain D1 + D2 exp(D3/3) in uniaxial tension, where sigma* = 1/3.
  */
 struct JohnsonCookParameters
 {
-  double A = 0., B = 0.;             // initial yield stress, hardening [Pa]
-  double n = 1.;                     // exponent of hardening
-  double C = 0.;                     // rate coefficient
-  double m = 1.;                     // exponent of thermal softening
+  double A = 0., B = 0.; // initial yield stress, hardening [Pa]
+  double n = 1.;         // exponent of hardening
+  double C = 0.;         // rate coefficient
+  double m = 1.;         // exponent of thermal softening
+  /**
+   * C depends on it: sets fitted with another reference differ by the factor 1
+   * + C ln of the ratio in A and B, and by its inverse in C.
+   */
   double reference_strain_rate = 1.; // [1/s]
+  /** T_room of T*, which need not be the temperature the body starts with. */
   double room_temperature = 294.;    // [K]
   double initial_temperature = 294.; // [K]
   double melt_temperature = 1000.;   // [K]
@@ -26,6 +36,10 @@ struct JohnsonCookParameters
   double conductivity = 0.;          // [W/m/K]
   double thermal_expansion = 0.;     // linear [1/K]
   bool has_damage = false;
+  /**
+   * D1, D2: strains; D3: of the triaxiality, negative for metals in the sign of
+   * the code, exp(D3 sigma*); D4: of the rate; D5: of T*. All without unit.
+   */
   double D[5] = {0., 0., 0., 0., 0.}; // D1 to D5
   /** Bound of the fracture strain from below, which some sets make negative at
       high triaxiality. */
@@ -51,13 +65,27 @@ struct JohnsonCookFlow
   };
   JohnsonCookParameters p;
 
+  /**
+   * T [K] only: neither pressure nor volume has a part in this law. T* is of
+   * the start of the step, an error of first order in dt in the softening.
+   */
   Point at(const double temperature, const double, const double) const
   {
     return {thermal_factor(temperature)};
   }
+  /**
+   * A (1 - T*^m): hardening and rate only add to it, as B and C are not
+   * negative.
+   */
   double lower_bound(const Point &point) const { return point.thermal * p.A; }
-  /** sigma_y [Pa] at strain @p eps and @p rate [1/s]; strains below 1e-14
-      count as that, where the slope of the power law has no bound. */
+  /**
+   * sigma_y [Pa] at strain @p eps and @p rate [1/s]; strains below 1e-14 count
+   * as that, where the slope of the power law has no bound.
+   * With h = B eps^n and f = 1 + C ln(rate/reference),
+   *   slope = (1 - T*^m)(n h/eps f + (A + h) C/(rate dt))
+   * above the reference rate, without the second term below, where f = 1: the
+   * kink of the rate's effect is one of the slope only.
+   */
   double stress(const Point &point, const double eps, const double rate,
                 const double dt, double &slope) const
   {
@@ -70,16 +98,23 @@ struct JohnsonCookFlow
             (p.n * hardening / safe * fast + (p.A + hardening) * fast_slope);
     return point.thermal * (p.A + hardening) * fast;
   }
+  /** G does not follow pressure or temperature in this law. */
   double shear_factor(const Point &) const { return 1.; }
 
-  /** T* of @p temperature [K], within [0, 1]. */
+  /**
+   * T* of @p temperature [K], within [0, 1].
+   * (T - T_room)/(T_melt - T_room), the papers' T*.
+   */
   double homologous(const double temperature) const
   {
     return std::min(
         1., std::max(0., (temperature - p.room_temperature) /
                              (p.melt_temperature - p.room_temperature)));
   }
-  /** 1 - T*^m of @p temperature [K], without a power where it is 0 or 1. */
+  /**
+   * 1 - T*^m of @p temperature [K], without a power where it is 0 or 1.
+   * 1 at room temperature and below, 0 from melt on.
+   */
   double thermal_factor(const double temperature) const
   {
     const double T = homologous(temperature);
@@ -100,6 +135,10 @@ struct JohnsonCookFlow
 class JohnsonCook : public RateDependentPlasticity<JohnsonCookFlow>
 {
 public:
+  /**
+   * Passes the thermal values of @p parameters on to RateDependentPlasticity;
+   * throws nothing, values that cannot be are refused where the file is read.
+   */
   JohnsonCook(const ElasticConstants &elastic,
               const JohnsonCookParameters &parameters, const Eos &eos = {});
   /** Flow stress [Pa] at strain @p eps, @p rate [1/s] and 1 - T*^m; its slope
@@ -115,8 +154,13 @@ public:
   {
     return flow.thermal_factor(temperature);
   }
-  /** eps_f at @p triaxiality sigma*, @p rate [1/s] and @p temperature [K], at
-      least the smallest. */
+  /**
+   * eps_f at @p triaxiality sigma*, @p rate [1/s] and @p temperature [K], at
+   * least the smallest.
+   * @p triaxiality is clamped to [-10, 1.5] first, @p rate to the reference
+   * rate from below. Without unit; the equivalent plastic strain at which D
+   * reaches 1 were all three held constant (Johnson & Cook 1985).
+   */
   double fracture_strain(const double triaxiality, const double rate,
                          const double temperature) const;
 

@@ -14,6 +14,9 @@ namespace sabot
  * the body's business, as it rotates the stress before. For strains of metals;
  * along closed cycles of large shear the Jaumann rate leaves stress behind. It
  * never yields.
+ *   s <- s + 2 G dev(D dt),
+ * s in the frame of the end of the step; no state of its own. For small strains
+ * it is Hooke's law. Pressure is the equation of state's.
  */
 class Elastic : public ElasticBase
 {
@@ -71,7 +74,11 @@ protected:
                        Scratch &scratch) const override;
 
 private:
-  /** A part of Y on which it is a line. */
+  /**
+   * A part of Y on which it is a line.
+   * Y(eps) = stress + slope (eps - strain) up to the strain of the next piece
+   * [Pa].
+   */
   struct Piece
   {
     double strain, stress, slope; // at the start of the piece

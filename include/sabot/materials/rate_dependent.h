@@ -15,11 +15,28 @@ namespace sabot
  */
 struct ThermalParameters
 {
+  /**
+   * T_0, at which the thermal pressure is zero and the state "temperature"
+   * starts.
+   */
   double initial_temperature = 294.; // [K]
-  double specific_heat = 1000.;      // [J/kg/K]
-  double taylor_quinney = 0.9;       // eta; 0 switches heating off
-  double conductivity = 0.;          // [W/m/K], for bodies that conduct
-  double expansion = 0.;             // linear, [1/K]; p += 3 K alpha (T - T_0)
+  /** c_p per mass; with rho_0 it divides the plastic work that becomes heat. */
+  double specific_heat = 1000.; // [J/kg/K]
+  /**
+   * Share of plastic work that becomes heat at once, the rest being stored in
+   * the lattice (G. I. Taylor and H. Quinney, Proc. R. Soc. A 143 (1934) 307).
+   */
+  double taylor_quinney = 0.9; // eta; 0 switches heating off
+  /**
+   * The law itself is adiabatic: conduction between points is the body's to do,
+   * with specific_heat() and conductivity() of the material.
+   */
+  double conductivity = 0.; // [W/m/K], for bodies that conduct
+  /**
+   * Refused beside an equation of state with a thermal pressure of its own, as
+   * it would count twice.
+   */
+  double expansion = 0.; // linear, [1/K]; p += 3 K alpha (T - T_0)
 
   /** The entries of the present subsection; @p initial_temperature is the
       default of that, with its unit. */
@@ -64,6 +81,10 @@ template <typename Flow>
 class RateDependentPlasticity : public ElasticBase
 {
 public:
+  /**
+   * Values are taken as they come: the laws' parse functions have checked them
+   * and throw InputError by the entry. @p eos may be null, for p = -K ln J.
+   */
   RateDependentPlasticity(const ElasticConstants &elastic, const Flow &flow,
                           const ThermalParameters &thermal, const Eos &eos)
       : ElasticBase(elastic, eos), flow(flow), thermal(thermal)
@@ -72,7 +93,10 @@ public:
   // Of the state "temperature".
   double specific_heat() const override { return thermal.specific_heat; }
   double conductivity() const override { return thermal.conductivity; }
-  /** The flow stress at strain and rate 0, at the initial temperature. */
+  /**
+   * The flow stress at strain and rate 0, at the initial temperature.
+   * Where the law has an effect of rate this is its slow limit [Pa].
+   */
   std::optional<double> initial_yield_stress() const override
   {
     double slope;
@@ -87,13 +111,32 @@ public:
   }
 
 protected:
+  /**
+   * Scalars both: the effective plastic strain, integral of sqrt(2/3 D_p : D_p)
+   * dt, and T [K]. Laws that derive from this one append theirs.
+   */
   std::vector<StateVariable> law_variables() const override
   {
     return {{"effective plastic strain", 0., false},
             {"temperature", thermal.initial_temperature, false}};
   }
+  /**
+   * Pressure of the start is -tr(sigma)/3 of the old stress; G follows it where
+   * the Flow says so. Per point: trial s + 2 G dev(d_eps), q from it and
+   * extra_square, and where q is above sigma_y(eps, 0) the return
+   *   s <- theta s,  theta = max(0, 1 - 3 G d/q),
+   *   work = theta q d [J/m^3],  dT = eta work/(rho_0 c_p).
+   * Where G = 0 (melt) nothing of s stays. lower_bound() saves the powers of
+   * the flow stress for points far from yield.
+   */
   void update_deviator(const MaterialBatch &batch,
                        Scratch &scratch) const override;
+  /**
+   * Takes the thermal pressure 3 K alpha (T - T_0) off the normal stresses, and
+   * where G may move and the body asks for `stiffening` writes the largest of
+   * 1, the bulk modulus of now over that at rest and G/G_0, one factor for K +
+   * 4/3 G.
+   */
   void after_pressure(const MaterialBatch &batch,
                       const Scratch &scratch) const override;
 
@@ -101,9 +144,14 @@ protected:
   const ThermalParameters thermal;
 
 private:
-  /** The root d > 0 for a trial @p q [Pa] above @p yield, to 1e-12 of q or
-      what follows from quadratic convergence; @p yield, @p slope: flow stress
-      and its slope at @p eps and rate 0. */
+  /**
+   * The root d > 0 for a trial @p q [Pa] above @p yield, to 1e-12 of q or what
+   * follows from quadratic convergence; @p yield, @p slope: flow stress and its
+   * slope at @p eps and rate 0.
+   * At most a hundred iterations; the bracket at least halves wherever Newton's
+   * step leaves it. @p point: what at() made of T, p and J; @p shear_modulus
+   * [Pa] of the start of the step, positive; @p dt [s].
+   */
   double increment(const typename Flow::Point &point, const double q,
                    const double shear_modulus, const double eps,
                    const double dt, const double yield, double slope) const;

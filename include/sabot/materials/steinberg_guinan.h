@@ -9,19 +9,33 @@ namespace sabot
  * D. J. Steinberg, S. G. Cochran and M. W. Guinan, A constitutive model for
  * metals applicable at high-strain rate, J. Appl. Phys. 51 (1980) 1498, doi
  * 10.1063/1.327799. Letters as there.
+ * Checked where the file is read: Y_0 > 0 and Y_max >= Y_0, else InputError by
+ * the entry.
  */
 struct SteinbergGuinanParameters
 {
-  double yield_stress = 0.;            // Y_0 [Pa]
-  double largest_yield_stress = 0.;    // Y_max [Pa]
-  double beta = 0., n = 0.;            // work hardening
-  double initial_plastic_strain = 0.;  // eps_i
+  double yield_stress = 0.; // Y_0 [Pa]
+  /**
+   * Bounds the hardened stress before it is scaled with G/G_0: under pressure
+   * the flow stress may exceed it.
+   */
+  double largest_yield_stress = 0.;   // Y_max [Pa]
+  double beta = 0., n = 0.;           // work hardening
+  double initial_plastic_strain = 0.; // eps_i
+  /**
+   * Pressure is positive in compression, so a positive A makes the metal
+   * stiffer under shock.
+   */
   double pressure_coefficient = 0.;    // A = G'_p/G_0 [1/Pa]
   double temperature_coefficient = 0.; // B = -G'_T/G_0 [1/K]
   double reference_temperature = 300.; // [K]
   double melt_temperature = 1000.;     // T_m0 [K]
-  double gruneisen = 2.;               // gamma_0 of the melting law
-  double melt_correction = 1.5;        // a
+  /**
+   * Of the law of Lindemann for T_m alone; an equation of state has a
+   * coefficient of its own.
+   */
+  double gruneisen = 2.;        // gamma_0 of the melting law
+  double melt_correction = 1.5; // a
 };
 
 /**
@@ -49,7 +63,12 @@ struct SteinbergGuinanFlow
   };
   SteinbergGuinanParameters p;
 
-  /** T_m [K] at volume ratio @p J. */
+  /**
+   * T_m [K] at volume ratio @p J.
+   * The paper's form, in eta = rho/rho_0 = 1/J, is T_m0 exp(2 a (1 - 1/eta))
+   * eta^(2 (gamma_0 - a - 1/3)); near J = 1 it rises with compression where
+   * gamma_0 > 1/3. @pre J > 0.
+   */
   double melt_temperature(const double J) const
   {
     return p.melt_temperature *
@@ -57,7 +76,11 @@ struct SteinbergGuinanFlow
                     2. * (p.gruneisen - p.melt_correction - 1. / 3.) *
                         std::log(J));
   }
-  /** @p temperature [K] and @p pressure [Pa] of the start of the step. */
+  /**
+   * @p temperature [K] and @p pressure [Pa] of the start of the step.
+   *   factor = max(0, 1 + A p J^(1/3) - B (T - T_ref)), 0 at T >= T_m(J),
+   * with p positive in compression; J^(1/3) is the paper's eta^(-1/3).
+   */
   Point at(const double temperature, const double pressure,
            const double J) const
   {
@@ -67,11 +90,19 @@ struct SteinbergGuinanFlow
                              p.temperature_coefficient *
                                  (temperature - p.reference_temperature))};
   }
+  /**
+   * Y grows with strain from Y_0 (1 + beta eps_i)^n, which is at least Y_0, and
+   * is cut at Y_max.
+   */
   double lower_bound(const Point &point) const
   {
     return point.factor * std::min(p.yield_stress, p.largest_yield_stress);
   }
-  /** Y [Pa]; without slope once Y_max is reached. */
+  /**
+   * Y [Pa]; without slope once Y_max is reached.
+   * The slope is Y_0 n beta (1 + beta (eps + eps_i))^(n - 1) G/G_0; rate and
+   * step have no part in it.
+   */
   double stress(const Point &point, const double eps, const double,
                 const double, double &slope) const
   {
@@ -81,9 +112,17 @@ struct SteinbergGuinanFlow
     slope = saturated ? 0. : point.factor * p.n * p.beta * hardened / base;
     return point.factor * std::min(hardened, p.largest_yield_stress);
   }
+  /**
+   * Y and G scale alike, so that the elastic strain at yield does not change
+   * with pressure or temperature.
+   */
   double shear_factor(const Point &point) const { return point.factor; }
 };
 
+/**
+ * States are those of RateDependentPlasticity; slow loading, where the yield
+ * stress depends on rate, is beyond the model.
+ */
 using SteinbergGuinan = RateDependentPlasticity<SteinbergGuinanFlow>;
 } // namespace sabot
 

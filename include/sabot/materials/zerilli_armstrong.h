@@ -9,13 +9,24 @@ namespace sabot
  * F. J. Zerilli and R. W. Armstrong, Dislocation-mechanics-based constitutive
  * relations for material dynamics calculations, J. Appl. Phys. 61 (1987) 1816,
  * doi 10.1063/1.338024. Letters as there, C0 with the part of the grain size.
+ * The paper's fit of copper is C0 = 65 MPa, C2 = 890 MPa, C3 = 0.0028 1/K, C4 =
+ * 0.000115 1/K. Read with C0 > 0, else InputError; the others are at least zero
+ * by the entries' bounds.
  */
 struct ZerilliArmstrongParameters
 {
   bool is_bcc = false;
-  double C0 = 0.;                  // athermal and grain-size part [Pa]
-  double C1 = 0.;                  // bcc, thermal part [Pa]
-  double C2 = 0.;                  // fcc, thermal part [Pa]
+  /**
+   * Delta sigma_G' + k l^(-1/2) of the paper: solutes and initial dislocations,
+   * and the grain size by Hall and Petch.
+   */
+  double C0 = 0.; // athermal and grain-size part [Pa]
+  double C1 = 0.; // bcc, thermal part [Pa]
+  double C2 = 0.; // fcc, thermal part [Pa]
+  /**
+   * Of the thermal activation: softening, and the effect of rate, which needs
+   * rates in 1/s as C3 holds the logarithm of the unit.
+   */
   double C3 = 0., C4 = 0.;         // [1/K]
   double C5 = 0., n = 1.;          // bcc, hardening [Pa]
   double melt_temperature = 1000.; // [K]
@@ -48,6 +59,10 @@ struct ZerilliArmstrongFlow
   };
   ZerilliArmstrongParameters p;
 
+  /**
+   * Above melt all four are zero, and with them strength and slope. The
+   * exponential of T is taken once per point, before the return.
+   */
   Point at(const double temperature, const double, const double) const
   {
     if (temperature >= p.melt_temperature)
@@ -55,8 +70,17 @@ struct ZerilliArmstrongFlow
     return {p.C0, (bcc ? p.C1 : p.C2) * std::exp(-p.C3 * temperature),
             p.C4 * temperature, p.C5};
   }
-  /** C0: neither strain nor rate take anything off. */
+  /**
+   * C0: neither strain nor rate take anything off.
+   * Both other terms are at least zero, so sigma >= C0 below melt.
+   */
   double lower_bound(const Point &point) const { return point.athermal; }
+  /**
+   * With t = thermal rate^(C4 T) the slope is, at strain rate above 1e-12 1/s,
+   *   fcc: sqrt(eps) t C4 T/(rate dt) + t/(2 sqrt(eps)),
+   *   bcc: t C4 T/(rate dt) + n C5 eps^n/eps.
+   * @p rate [1/s], @p dt [s]; strains below 1e-14 count as that.
+   */
   double stress(const Point &point, const double eps, const double rate,
                 const double dt, double &slope) const
   {
@@ -76,6 +100,7 @@ struct ZerilliArmstrongFlow
     slope = root * rate_slope + 0.5 * thermal / root;
     return point.athermal + thermal * root;
   }
+  /** The paper has no law for G: it is constant. */
   double shear_factor(const Point &) const { return 1.; }
 };
 

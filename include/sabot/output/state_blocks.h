@@ -8,7 +8,10 @@
 
 namespace sabot
 {
-/** One array of a saved state, bit by bit. */
+/**
+ * One array of a saved state, bit by bit.
+ * What CheckpointFolder stores, with a checksum of each.
+ */
 struct StateBlock
 {
   std::string name;        // "body core/position"
@@ -17,8 +20,11 @@ struct StateBlock
   std::vector<char> bytes; // [n * size]
 };
 
-/** Copies the arrays that it visits: what a rank has to save. Takes as much
-    memory as the state, for as long as it lives. */
+/**
+ * Copies the arrays that it visits: what a rank has to save. Takes as much
+ * memory as the state, for as long as it lives.
+ * Changes nothing of what it visits. Not collective.
+ */
 class StateSaver : public StateVisitor
 {
 public:
@@ -34,6 +40,9 @@ public:
  * IOError, which names both, when name or size differ from what was saved: the
  * checkpoint is of another scene or of another version of the program. What
  * follows from the arrays the owners make anew (StateVisitor::is_restoring()).
+ *
+ * The order is that of StateSaver::blocks. After an IOError what was visited
+ * before is overwritten already: the run cannot go on. Not collective.
  */
 class StateRestorer : public StateVisitor
 {
@@ -41,6 +50,10 @@ public:
   explicit StateRestorer(std::vector<StateBlock> blocks);
   void visit(const std::string &name, void *data, std::size_t n,
              std::size_t size) override;
+  /**
+   * Of the block that is next; IOError where @p name is another one. The @p n
+   * of now does not count.
+   */
   std::size_t n_entries(const std::string &name, std::size_t n) const override;
   bool is_restoring() const override { return true; }
 

@@ -12,22 +12,41 @@ namespace sabot
  * Watches what a run must keep: energy, and the momentum of a free scene.
  * Residuals are relative to the largest energy so far and to the momentum that
  * the bodies had at the start, sum over bodies of sqrt(2 E_kin m).
+ * With the total energy E, of which the work supplied from outside has been
+ * taken off (EnergyLedger::total()),
+ *   energy:   |E - E_0|/max over time |E|,
+ *   momentum: |sum m v + p_eroded - p_0|/sum sqrt(2 E_kin m),
+ * both pure numbers. Zero where nothing moves.
  */
 class Balance
 {
 public:
+  /** The scene is kept by reference, and may still be without state. */
   Balance(const Scene &scene, MPI_Comm communicator);
 
-  /** Take the present values for those that must stay. Collective. */
+  /**
+   * Take the present values for those that must stay. Collective.
+   * After the first forces, before the first step.
+   */
   void start();
-  /** Look now, at @p time [s] after a step of @p dt [s]; 0: before the first.
-      Collective. */
+  /**
+   * Look now, at @p time [s] after a step of @p dt [s]; 0: before the first.
+   * Collective.
+   * A residual that is not a number counts as the largest one.
+   */
   void look(const double time, const double dt);
-  /** Throws PhysicsError when the energy residual is above @p limit; says which
-      term is largest and, by @p limiter, what limited the step. */
+  /**
+   * Throws PhysicsError when the energy residual is above @p limit; says which
+   * term is largest and, by @p limiter, what limited the step.
+   * Of the last look; a residual that is not a number is above any limit. Not
+   * collective, but the same on all ranks, as the sums are.
+   */
   void check(const double limit, const std::string &limiter) const;
   /** Fill row() with the values of a resumed run, leaving all else. */
   void fill_row(const double time, const double dt);
+  /**
+   * Initial and largest values: a resumed run measures against the same ones.
+   */
   void visit_state(StateVisitor &visitor);
 
   /** Time, step size, all terms of the ledger, total and residual. */

@@ -18,10 +18,19 @@ class BodyAssembly
 public:
   using Materials = std::map<std::string, std::shared_ptr<const Material>>;
 
-  /** @p prm at its top level, with everything declared and read. */
+  /**
+   * @p prm at its top level, with everything declared and read.
+   * All three are kept by reference. Does nothing yet.
+   */
   BodyAssembly(Parameters &prm, const ParameterFile &file,
                const Materials &materials);
-  /** Build the bodies called @p names into bodies and zones. */
+  /**
+   * Build the bodies called @p names into bodies and zones.
+   * Zones first, as hosts need to know what is cut from them; then meshes that
+   * are cut cell by cell; then bodies in the order of @p names, which numbers
+   * them from 0. InputError for unknown materials or hosts, for a host that is
+   * not of finite elements, and for a second zone of one host.
+   */
   void build(const std::vector<std::string> &names);
 
   std::vector<std::unique_ptr<Body>> bodies;
@@ -29,17 +38,36 @@ public:
   std::vector<std::string> notes; // what the meshes are like
 
 private:
-  /** Zones by their hosts. */
+  /**
+   * Zones by their hosts.
+   * Fills `carvings` from the entries "Carve from".
+   */
   void find_carvings(const std::vector<std::string> &names);
+  /**
+   * The zone's shape must be a box or a cylinder, else InputError. It follows
+   * the mesh where host or zone has no lattice of its own.
+   */
   Carving read_carving(const std::string &name, const std::string &from) const;
-  /** Cut the meshes of hosts whose zones follow them. */
+  /**
+   * Cut the meshes of hosts whose zones follow them.
+   * Cells of host and zone come from one mesh, so that their faces meet; the
+   * zone's spacing is that of the cells, and discretizations are told so.
+   */
   void carve_meshes();
+  /**
+   * Notes the quality of the mesh; InputError where a cell has a scaled
+   * Jacobian of zero or less. @p cell_size [m]; @p carving may be null.
+   */
   NamedMesh make_mesh(const std::string &path, const double cell_size,
                       const Carving *carving);
+  /** Its subsection with material, shape and mesh, as BodyRequest. */
   std::unique_ptr<Body> make_body(const std::string &name, const int id);
+  /** By the bodies as they were built: numbers, bounds and spacing [m]. */
   CarvedZone record(const Carving &carving) const;
+  /** By the entry "Discretization" of the file, FEM where there is none. */
   std::unique_ptr<Discretization>
   discretization_of(const std::string &body) const;
+  /** By the entry "Geometry" of the file, a box where there is none. */
   std::unique_ptr<Shape> shape_of(const std::string &body) const;
 
   Parameters &prm;
@@ -50,8 +78,14 @@ private:
   std::map<std::string, double> cell_size; // by zone that follows a mesh [m]
 };
 
-/** Refuse bodies that overlap, but for zones and their hosts, and for curved
-    surfaces that are tied. */
+/**
+ * Refuse bodies that overlap, but for zones and their hosts, and for curved
+ * surfaces that are tied.
+ * By bounding boxes of the nodes: an overlap along all three axes of more than
+ * 1 nm and 1e-6 of the smallest extent of the two is one. Throws InputError for
+ * the entry "Center" of the later body. Not collective; before bodies are
+ * distributed.
+ */
 void check_overlaps(const Scene &scene, const ParameterFile &file);
 } // namespace sabot
 

@@ -10,7 +10,10 @@ void declare_body_of_quantity(Parameters &prm);
 /** Declares the entries of a quantity of a body along a direction. */
 void declare_directed_quantity(Parameters &prm);
 
-/** A body and a direction along which something is measured. */
+/**
+ * A body and a direction along which something is measured.
+ * In the fixed frame of the scene. The body is kept by reference.
+ */
 struct DirectedQuantity
 {
   const Body &body;
@@ -20,11 +23,17 @@ struct DirectedQuantity
       direction that is zero or, where @p is_along_axis, not along x, y or z. */
   static DirectedQuantity read(const QuantityRequest &request,
                                const bool is_along_axis);
-  /** The axis that the direction follows most. */
+  /**
+   * The axis that the direction follows most.
+   * 0, 1, 2: x, y, z.
+   */
   int axis() const;
 };
 
-/** Extent of @p m along an axis [m]. */
+/**
+ * Extent of @p m along an axis [m].
+ * Between the outermost nodes in the present configuration; never negative.
+ */
 inline double extent(const BodyMeasures &m, const int axis)
 {
   return m.high[axis] - m.low[axis];

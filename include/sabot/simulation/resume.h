@@ -21,6 +21,10 @@ struct ResumePoint
  * into parameters.prm. InputError when there is none, when it was written on
  * another number of ranks, or when @p overrides would change what the state
  * depends on. Collective; throws on all ranks.
+ *
+ * @p overrides: entries as the command line gives them, "path = value"; those
+ * on when a run ends and when checkpoints are due are free, all others are
+ * refused.
  */
 ResumePoint find_resume_point(const std::string &folder,
                               const std::vector<std::string> &overrides,

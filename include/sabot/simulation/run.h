@@ -15,10 +15,18 @@
 
 namespace sabot
 {
-/** Version of the program. */
+/**
+ * Version of the program.
+ * As in the project's CMakeLists.txt; it stands in result.json, parameters.prm,
+ * the log and the headers of checkpoints.
+ */
 std::string version();
 
-/** Bounds of the step that a scene sets. */
+/**
+ * Bounds of the step that a scene sets.
+ * "Step factor", "Largest step" and "End time" of the scene [s]; the bound of
+ * growth keeps its default.
+ */
 StepLimits step_limits(const RunSettings &settings);
 
 /**
@@ -28,30 +36,88 @@ StepLimits step_limits(const RunSettings &settings);
 class Run
 {
 public:
+  /**
+   * The scene must not be distributed yet: execute() does it. Makes the folder
+   * of checkpoints and writes nothing else. With @p quiet the log keeps off the
+   * screen, log.txt is filled in any case. @p scene is kept by reference and
+   * must outlive the run. Collective.
+   */
   Run(Scene &scene, const std::string &folder, const bool quiet,
       MPI_Comm communicator);
 
-  /** The whole run, or what is left of it after @p checkpoint (a file of this
-      scene and number of ranks); says what the process should return.
-      Collective. */
+  /**
+   * The whole run, or what is left of it after @p checkpoint (a file of this
+   * scene and number of ranks); says what the process should return.
+   * Collective.
+   * Per step: propose, choose, advance, update; then, where due, a row of the
+   * histories, outputs, the check of the energy balance and a checkpoint.
+   * SIGINT and SIGTERM end it between two steps with a checkpoint
+   * (ExitCode::interrupted). A PhysicsError of any rank ends it with status
+   * "failed", result and last output written, and a checkpoint "failed.h5"
+   * where the state is of a whole step. InputError of the set-up and IOError
+   * pass through to the caller.
+   */
   ExitCode execute(const std::string &checkpoint = "");
 
 private:
+  /**
+   * Folder, partition, initial forces; then the first row and outputs, or what
+   * @p checkpoint holds. Older checkpoints in the folder are removed by a new
+   * run.
+   */
   void start(const std::string &checkpoint);
+  /**
+   * Rank 0 makes the folder, log.txt (appended to where @p append) and
+   * parameters.prm with every entry; IOError on all ranks.
+   */
   void open_folder(const bool append);
+  /**
+   * To the log: sizes of bodies, notes, warnings, tied nodes, and how far nodes
+   * start inside of what they touch.
+   */
   void describe_scene();
+  /**
+   * Until the end time or a signal. Energy is looked at with every row, and at
+   * least two hundred times a run.
+   */
   void loop();
+  /**
+   * PhysicsError where the step is not positive, or the stable step has fallen
+   * below 1e-4 of the smallest one so far (after ten steps): then cells
+   * collapse.
+   */
   void make_step(const StepProposal &proposal);
+  /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
+  /**
+   * Balance, then a row for the ledger, each body and the quantities.
+   * Collective.
+   */
   void record();
+  /** What is due, and with @p is_last all of it and history.h5. Collective. */
   void write_outputs(const bool is_last);
+  /**
+   * Also judges the zones and says the last lines of the log. @p status:
+   * "completed", "interrupted" or "failed". IOError on all ranks. Collective.
+   */
   void write_result(const std::string &status, const std::string &reason);
+  /**
+   * Step, time, step size with what limits it, energy residual, and the wall
+   * time left if the rest went as the past.
+   */
   std::string progress_text() const;
   /** Numbers of the run itself, then of all bodies and couplings. */
   template <typename Visitor>
   void visit_all(Visitor &visitor);
+  /** Stepper, limits met, due times, balance, wall time, histories. */
   void visit_state(StateVisitor &visitor);
+  /** @p name: see CheckpointFolder::write(). Collective. */
   void write_checkpoint(const std::string &name = "");
+  /**
+   * Overwrites all state with this rank's blocks of the file. IOError where
+   * they do not fit the scene; with more than one rank it ends the process
+   * instead, as others may be waiting in a collective call.
+   */
   void restore(const std::string &checkpoint);
   double seconds_since_start() const;
 

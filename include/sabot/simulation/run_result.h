@@ -12,17 +12,34 @@
 
 namespace sabot
 {
-/** How a run ended, for its result. */
+/**
+ * How a run ended, for its result.
+ * What only the run knows; the rest of the result is asked of bodies,
+ * couplings, balance and timers. "completed", "interrupted" or "failed", and
+ * for the latter two a reason in words. Wall time is summed over resumptions.
+ */
 struct RunSummary
 {
   std::string status, reason; // "completed", ...; why not
   int n_ranks;
   unsigned int steps;
   double time, wall_seconds; // [s]
-  double smallest_step;      // stable [s]; of no meaning without steps
+  /**
+   * Before the step factor, over all steps but the last, which is cut to meet
+   * the end time.
+   */
+  double smallest_step; // stable [s]; of no meaning without steps
 };
 
-/** What result.json says of a run, in the order of the file. Collective. */
+/**
+ * What result.json says of a run, in the order of the file. Collective.
+ * In SI, keys with underscores. Sections: run, residuals, "bodies",
+ * "quantities", "energy" [J], "timers" (seconds of this rank, calls, ns per
+ * item), "contact", "couplings", "zone", "knobs". Numbers that are not finite
+ * become null, as JSON has none. Processor seconds and peak memory are sums
+ * over ranks. The momentum residual is null where something holds a body from
+ * outside. Of fragments the twenty heaviest stand in it.
+ */
 nlohmann::ordered_json make_result(const Scene &scene,
                                    const RunSummary &summary,
                                    const Balance &balance, const Timers &timers,

@@ -16,7 +16,12 @@
 
 namespace sabot
 {
-/** Scalars of a scene. */
+/**
+ * Scalars of a scene.
+ * In SI. @p step_factor is that of the least stable step, below 1 for the
+ * nonlinear part; @p energy_limit bounds the residual of Balance, a pure
+ * number.
+ */
 struct RunSettings
 {
   std::string title;
@@ -26,7 +31,12 @@ struct RunSettings
   unsigned int checkpoint_steps;
 };
 
-/** A part of a FEM body in whose place there are particles. */
+/**
+ * A part of a FEM body in whose place there are particles.
+ * Bodies by their numbers in Scene::bodies. Lengths are of the reference
+ * configuration; the bounds are those of nodes and particles of host and zone
+ * together, the host's as a whole.
+ */
 struct CarvedZone
 {
   int zone, host;                            // bodies
@@ -44,23 +54,47 @@ struct CarvedZone
 class Scene
 {
 public:
+  /**
+   * In this order: settings, materials, bodies with zones, overlaps, couplings,
+   * outputs, quantities. @p file is read only while this runs.
+   */
   Scene(const ParameterFile &file, MPI_Comm communicator);
 
-  /** Partition all bodies together, distribute them and start the couplings.
-      Collective; after this the scene can run. */
+  /**
+   * Partition all bodies together, distribute them and start the couplings.
+   * Collective; after this the scene can run.
+   * One partition for the points of all bodies, weighted with what a point of
+   * each costs; then each body keeps its share, and couplings start from the
+   * last to the first, ties before contact, which has to know who follows whom.
+   */
   void distribute();
 
-  /** Declare the entries that the lists of @p file call for; of a null file all
-      that there are, as the manual shows them. */
+  /**
+   * Declare the entries that the lists of @p file call for; of a null file all
+   * that there are, as the manual shows them.
+   * InputError where a list and the subsections of @p file do not fit together.
+   */
   static void declare(Parameters &prm, const ParameterFile *file);
 
-  /** The number of the body called @p body_name; InputError for the entry
-      @p path, with the nearest name, where there is none. */
+  /**
+   * The number of the body called @p body_name; InputError for the entry @p
+   * path, with the nearest name, where there is none.
+   * From 0, in the order of "List of bodies"; the same as Body::id.
+   */
   int body_index(const std::string &path, const std::string &body_name) const;
+  /** In the order of their numbers; they live as long as the scene. */
   std::vector<Body *> body_pointers() const;
-  /** Every entry with its value, as a parameter file. */
+  /**
+   * Every entry with its value, as a parameter file.
+   * Defaults included: read again it gives the same scene. What checkpoints
+   * hold and parameters.prm in the results is.
+   */
   std::string expanded_parameters() const;
-  /** Path and value of every entry that trades speed for accuracy. */
+  /**
+   * Path and value of every entry that trades speed for accuracy.
+   * Of listed bodies and couplings and of the top level only; subsections that
+   * no list names are read, but not in force.
+   */
   std::vector<std::pair<std::string, std::string>> knobs() const;
 
   RunSettings settings;
@@ -76,11 +110,19 @@ public:
   bool is_free = true;
 
 private:
+  /** InputError where the list of bodies is empty. */
   void read_settings();
+  /** All subsections of "Materials", whether a body uses them or not. */
   void build_materials(const ParameterFile &file);
+  /**
+   * In the order that their builders ask for, equal ones in the list's; those
+   * that act last, as ties do, at the end. Warns of zones without a tie to
+   * their host.
+   */
   void build_couplings();
   void build_outputs();
   void build_quantities();
+  /** Of "List of <list>"; empty where the entry is. */
   std::vector<std::string> names_of(const std::string &list) const;
 
   mutable Parameters prm; // printing does not change it, but is not const

@@ -10,8 +10,13 @@
 
 namespace sabot
 {
-/** A box or cylinder of particles that replaces cells of a FEM body: where it
-    lies and which of its faces are inside that body, where the two are tied. */
+/**
+ * A box or cylinder of particles that replaces cells of a FEM body: where it
+ * lies and which of its faces are inside that body, where the two are tied.
+ * In the reference configuration [m]. A face is tied where it lies inside the
+ * host's bounds by more than 1e-3 spacings; all of a cylinder's side is, where
+ * any part of it is.
+ */
 struct ZoneBox
 {
   int zone, host; // bodies
@@ -22,12 +27,20 @@ struct ZoneBox
   /** Distance of a point from the axis of a cylinder [m]. */
   double radius_of(const std::array<double, 3> &x) const;
 
-  /** Reference distance of a point to the nearest tied face in spacings;
-      negative outside the zone. Huge where nothing is tied. */
+  /**
+   * Reference distance of a point to the nearest tied face in spacings;
+   * negative outside the zone. Huge where nothing is tied.
+   *   min over tied faces of depth/spacing,
+   * depth to the plane, or radius - |x - axis| for a cylinder's side; outside
+   * the zone minus the largest of the distances outside of single faces.
+   */
   double distance_from_tie(const std::array<double, 3> &x) const;
 };
 
-/** The zones of a scene. */
+/**
+ * The zones of a scene.
+ * One for each of Scene::zones, in their order. Not collective.
+ */
 std::vector<ZoneBox> find_zones(const Scene &scene);
 
 /** What a zone was needed for. Boxes are in the reference configuration. */
@@ -39,9 +52,13 @@ struct ZoneVerdict
       broken bonds reached, huge where there were none; negative: cells so far
       outside the zone strained that much. */
   double plastic_distance, bond_distance;
-  /** Smallest box, of a cylinder the bounds of the smallest cylinder, with the
-      same center line that leaves two spacings between
-      them and the tie, what it holds, and what it would have saved. */
+  /**
+   * Smallest box, of a cylinder the bounds of the smallest cylinder, with the
+   * same center line that leaves two spacings between them and the tie, what it
+   * holds, and what it would have saved.
+   * Kept symmetric about the center where both sides are tied, as wide as
+   * before where a side is free. Seconds saved may be negative: then it costs.
+   */
   struct Box
   {
     std::array<double, 3> size; // [m]
@@ -50,8 +67,12 @@ struct ZoneVerdict
   Box for_both, for_bonds;
   double n_particles;
 
-  /** Whether the tie held back what would have gone further: a larger zone
-      may be found too small as well. */
+  /**
+   * Whether the tie held back what would have gone further: a larger zone may
+   * be found too small as well.
+   * Bonds or plastic strain that came as far as the tie were stopped by it or
+   * went through it, and how far they would have come nobody knows.
+   */
   bool is_lower_bound() const
   {
     return bond_distance <= 0. || plastic_distance <= 0.;
@@ -63,6 +84,10 @@ struct ZoneVerdict
  * far they came. Seconds saved: particles left out at the measured cost of a
  * particle-step, its searches and kernel updates, less the cells that would
  * stand in their place. Collective.
+ *
+ * Cost of a particle: SPG step, kernel update and contact timers over the
+ * number of particles; of a cell: the FEM step's over the number of cells.
+ * Without steps nothing is saved. Changes nothing.
  */
 std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
                                      const unsigned int n_steps,

@@ -177,7 +177,6 @@ std::vector<double> FemBoundary::flow_stress(
     const std::vector<std::size_t> &some_nodes, const std::size_t n_local_nodes,
     const Hexahedra &cells, const std::vector<std::uint32_t> &cell_of) const
 {
-  constexpr double does_not_yield = 1e300; // [Pa], see Body::flow_stress()
   std::vector<std::int64_t> number(n_local_nodes, -1);
   for (std::size_t k = 0; k < some_nodes.size(); ++k)
     number[some_nodes[k]] = k;
@@ -200,7 +199,7 @@ std::vector<double> FemBoundary::flow_stress(
         ++n_faces[number[a]];
       }
   for (std::size_t k = 0; k < mean.size(); ++k)
-    mean[k] = n_faces[k] > 0 ? mean[k] / n_faces[k] : does_not_yield;
+    mean[k] = n_faces[k] > 0 ? mean[k] / n_faces[k] : never_yields;
   return mean;
 }
 } // namespace sabot

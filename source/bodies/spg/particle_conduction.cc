@@ -1,3 +1,5 @@
+// Heat between particles: conductances of bonds, heat flow, backward Euler.
+
 #include "sabot/bodies/spg/particle_conduction.h"
 
 #include "sabot/bodies/conduction_solver.h"

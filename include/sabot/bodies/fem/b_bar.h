@@ -17,10 +17,16 @@ namespace sabot
  * which do the same work. Four points share a pack, two packs make a cell.
  * All points see the mean volume ratio; the bulk viscosity is that of the mean
  * rate. Costs several times a one-point cell.
+ *
+ * J of the law is v/V_0 of the cell; laws that need F get (J/det F_q)^(1/3)
+ * F_q. Inversion is judged at every point. The stiffest point shortens the step
+ * of its cell. Limit: eight points share one pressure, so only strength resists
+ * the collapse of a single one (doc/theory/fem.md).
  */
 class BBar : public Hexahedra
 {
 public:
+  /** Eight points a cell; cells come by set_up(). */
   BBar(const std::string &body_name, const FemOptions &options,
        std::shared_ptr<const Material> material)
       : Hexahedra(body_name, options, material, 8)
@@ -30,9 +36,15 @@ public:
   void set_up(
       const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
       const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
+  /** As Hexahedra; 4 cells, 32 points a batch. Forces are recomputed by
+      cell_forces() from the points' new stress. */
   void add_forces(NodalState &nodes, const double dt) override;
+  /** From F and stress as kept; needs no positions. The pressure is the mean
+      over the points, weighted by their present volumes, of tr sigma_q/3 -
+      q. */
   void cell_forces(const NodalState &nodes, const std::size_t cell,
                    Vec force[8]) const override;
+  /** Compacts geometry and motion with the points. */
   void keep(const std::vector<std::size_t> &kept) override;
   void visit_state(StateVisitor &visitor) override;
 
@@ -42,7 +54,8 @@ protected:
 private:
   static constexpr int n_packs = 2; // per cell
   static constexpr std::size_t cells_per_batch = batch_size / 8;
-  /** Reference data of a cell. */
+  /** Reference data of a cell. Gauss points at +-1/sqrt(3) in the order of
+      the corners (VTK); B_aq and V_q are exact for the trilinear map. */
   struct Geometry
   {
     Pack B[n_packs][8][3]; // reference gradients at the points [1/m]
@@ -54,7 +67,7 @@ private:
     PackMat F[n_packs];
   };
   /** A cell between two positions, and sums over its points. */
-  struct Moving
+  struct Moving // on the stack, while kinematics() runs
   {
     PackMat F[n_packs], l[n_packs]; // l: see midpoint_increment()
     Vec mean[8];                    // v times the mean present gradients [m^2]
@@ -63,24 +76,37 @@ private:
     double shear_bound;             // sum of v_q lambda_max G_q [m]
   };
   /** Gradients at Gauss point @p q of a cell with the corners @p X [m].
-      @return its volume [m^3]. */
+      @return its volume [m^3]. B_a = J^-T dN_a/dxi, V_q = det J with weights
+      of 1. */
   static double set_up_point(const std::array<Vec, 8> &X, const int q,
                              Geometry &g);
   /** From the positions of the corners to what the material needs, into the
-      batch; advances motion. */
+      batch; advances motion. Strain: l_q with its trace replaced by the
+      cell's mean, spread over the diagonal; J, q: those of the cell, at all
+      its points. The step of the cell stands at its first point. */
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t cell, const double dt);
   // Parts of kinematics(); see there in the source.
+  /** F = sum x_a (x) B_aq and l of four points; what inverts rests; adds
+      volumes and expansion. */
   void add_points(const NodalState &nodes, const std::size_t e, const int p,
                   const Vec x[8], Moving &cell);
+  /** b_aq = F^-T B_aq [1/m] by the adjugate; adds v_q b_aq to the mean and
+      v_q lambda_max of sum b (x) b to the bound of the shear. */
   static void add_present_gradients(const Geometry &g, const int p,
                                     const Pack J, Moving &cell);
+  /** [s], shortened by the bulk viscosity q = rho h (c1 c |d| + c2 h d^2)
+      [Pa], which it also returns; h by the mean gradients, d the mean rate,
+      compression only. */
   static double stable_step(const CellConstants &constants,
                             const double reference_volume, const double dt,
                             const Moving &cell, double &q);
+  /** 0.25 over the fastest rate of closing of a point by the present
+      velocities [s], for the option shrink. */
   double step_of_quarter_volume(const NodalState &nodes, const std::size_t e,
                                 const Moving &cell) const;
 
+  // One entry a cell; the batch holds the points of four cells.
   AlignedVector<Geometry> geometry;
   AlignedVector<Motion> motion;
   PointBatch batch;

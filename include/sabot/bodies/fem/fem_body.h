@@ -27,10 +27,19 @@ namespace sabot
  * eighth of the mass of every cell around), where the internal forces are
  * -sum_cells V_0 J sigma F^-T B_a at the positions now (doc/theory).
  * Nodes: owned ones first, then ghosts, both ascending in global order.
+ *
+ * Units are SI, vectors and tensors in the fixed frame. A node belongs to one
+ * rank; a cell is computed by every rank that owns one of its nodes and
+ * reported by one. Sums over ranks are exact (ExactSum), so reports are the
+ * same for every number of ranks.
  */
 class FemBody : public Body, public FaceView
 {
 public:
+  /** @p mesh and @p material are complete; nothing is collective. Throws
+      InputError, by the entry of the body, for erosion by a state that the
+      material does not have, for conduction without conductivity or together
+      with erosion, and for symmetry faces that are not plane. */
   FemBody(const std::string &name, const int id, HexMesh mesh,
           std::shared_ptr<const Material> material, const FemOptions &options);
 
@@ -38,39 +47,73 @@ public:
   {
     return mesh.nodes;
   }
+  /** The unit of cost: a node of one-point cells. */
   double partition_weight() const override { return 1.; }
+  /** Takes the nodes of this rank and all cells around them, lumps masses
+      m_a = sum rho V_0/8 in global cell order, so that they are the same on
+      every rank that has the node, and releases the mesh. Collective. */
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
   // Between the kicks and drifts of the integrator, see Body.
+  /** Held components get the prescribed velocity [m/s], 0 on clamped faces
+      and across symmetry planes. Local. */
   void impose_velocities(const double time) override;
+  /** Adds -dt/2 f . v of the driven components [J], the work that a drive
+      does against the forces f on its nodes; half a step at a time, before
+      and after the forces change. Local. */
   void accumulate_work(const double half_dt) override;
+  /** Positions and velocities of the nodes of other ranks: all that the cells
+     of this one need. Forces are never exchanged, as every rank computes all
+     cells of its nodes. */
   void update_ghosts() override;
+  /** Forces -f_internal [N] at the positions now, from zero; material
+      advanced by dt [s]. Local, but may throw PhysicsError on one rank (an
+      inverted cell). */
   void compute_forces(const double time, const double dt) override;
+  /** The least of the cells' (by bounds of their highest frequencies),
+     shortened by bulk viscosity and stiffening of the material. */
   StableStep stable_step() const override;
+  /** Heat conduction where its interval is over, then erosion; only the latter
+      changes forces and surface. Collective. */
   bool update_topology(const unsigned int step, const double time) override;
 
   /** Owned cells only, so that the sum over ranks counts each once; the kinetic
       energy of nodes that lost all cells counts as eroded. */
   void add_energies(EnergyLedger &ledger) const override;
+  /** Energies and momentum of the body, the largest plastic strain and
+      temperature, what has been eroded. Collective; exact sums, the same for
+      every number of ranks. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
+  /** By any clamped, driven or symmetry face, the rest of the scene aside. */
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
     return boundary.planes();
   }
+  /** Center of every owned cell, and its effective plastic strain. */
   std::vector<MaterialSite> material_sites() const override;
+  /** Owned cells with all their nodes, so that borders between ranks are drawn
+      by one of them. */
   OutputMesh output_mesh() const override;
+  /** Eroded cells first: a reader must take them out before it fills arrays.
+      External work is part of it. */
   void visit_state(StateVisitor &visitor) override;
 
+  /** Faces whose four nodes are all here, owned nodes of them; none on
+      planes of symmetry. Local. */
   ContactSurface contact_surface() const override;
+  /** Goes up whenever cells erode; couplings search anew when it does. */
   unsigned int contact_surface_version() const override
   {
     return surface_version;
   }
 
+  // The view of its faces.
   const FaceView *faces() const override { return this; }
+  /** Local nodes in VTK order of the cell behind each face of
+      contact_surface(); zeros where this rank does not have it. */
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;
   bool deform() const override { return true; }
   std::vector<double>
@@ -97,16 +140,22 @@ public:
   }
 
 private:
-  /** Whether the material has this state variable. */
+  /** Whether the material has this state variable. Asked of the law, not of
+      the arrays, so that ranks without cells answer alike. */
   bool has_state(const std::string &variable) const;
-  /** Conducts since the last time that it was called; collective. */
+  /** Conducts since the last time that it was called; collective. Cells'
+      mean temperatures go through HeatConduction; every point gets its
+      cell's change [K]. */
   void conduct_heat(const double time);
-  /** The nodes of this rank at rest in place, and their exchange. */
+  /** The nodes of this rank at rest in place, and their exchange. Velocities
+      are the initial ones [m/s], masses 0 until cells add theirs.
+      Collective: owners learn who asks for what. */
   void lay_out_nodes(const LocalPart &part, const std::vector<int> &owner);
   /** Cells behind the boundary faces, FemBoundary::no_cell where another rank's
       nodes have it. Kept once found, unless cells erode. */
   const std::vector<std::uint32_t> &cell_of_faces() const;
-  /** Which owned nodes lost all their cells; null where none can. */
+  /** Which owned nodes lost all their cells; null where none can. [n_owned].
+      Such nodes keep mass and momentum; they count as eroded. */
   const std::vector<char> *free_nodes() const;
 
   HexMesh mesh; // released after distribute()

@@ -32,12 +32,16 @@ public:
    * clamped, driven and symmetry faces share nodes, symmetry gives way to a
    * driven face, and both to a clamped one.
    * @param local  number on this rank of the mesh's nodes that are here
+   *
+   * Ids of the faces are their numbers in the mesh; the typical spacing [m] is
+   * the root of the mean area of all faces of the mesh, the same on every rank.
    */
   void set_up(const HexMesh &mesh,
               const std::unordered_map<GlobalIndex, std::uint32_t> &local,
               const std::size_t n_owned, VelocityConstraints &constraints);
 
-  /** As of now, for couplings. */
+  /** As of now, for couplings. Bulk modulus in Pa. node_share halves a
+      node's part for each plane of symmetry through it. */
   ContactSurface surface(const std::size_t n_owned,
                          const double bulk_modulus) const;
 
@@ -47,8 +51,8 @@ public:
   std::vector<std::uint32_t> find_cells(const Hexahedra &cells) const;
 
   /** Present flow stress [Pa] at some owned nodes of the faces: the mean over
-      the faces around a node of that of the cells behind them; 1e300 where
-      there are no faces.
+      the faces around a node of that of the cells behind them; never_yields
+     where there are no faces.
       @param cell_of  cells behind the faces, see find_cells() */
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes,

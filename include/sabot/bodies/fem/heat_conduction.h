@@ -34,20 +34,27 @@ public:
                  const GhostExchange &exchange, MPI_Comm communicator);
 
   /** Conduct for @p dt [s]; @p temperature of the cells [K] is updated.
-      Collective. */
+      Collective. (C + dt K) dT = -dt K T for the change alone, C lumped; T
+      of the nodes is kept between calls. Ghosts' positions must be up to
+      date. Throws PhysicsError where the iteration does not converge. */
   void advance(const NodalState &nodes, const double dt, double *temperature);
 
+  /** Nodal temperatures and those that the cells had after the last call. */
   void visit_state(StateVisitor &visitor);
   /** Of the conjugate gradients, for tests. */
   unsigned int last_iterations() const { return n_iterations; }
 
 private:
-  /** Nodal temperatures with the heat of the cells around; once. */
+  /** Nodal temperatures with the heat of the cells around; once. Means of
+      the cells around a node, weighted by their capacities, so that the heat
+      is that of the cells. */
   void start(const double *temperature);
   /** K_ab = k integral(grad N_a . grad N_b) at the present positions, 2x2x2
-      Gauss points [W/K]. */
+      Gauss points [W/K]. Every call anew, as cells deform; rows of owned
+      nodes are complete, since all cells around them are here. */
   void assemble(const NodalState &nodes);
-  /** product = (capacity/dt + conductance) x; ghosts of x are set first. */
+  /** product = (C + dt K) x / C_max, C_max the largest nodal capacity of all
+      ranks, for owned nodes; ghosts of x are set first. */
   void multiply(const double dt, std::vector<double> &x,
                 std::vector<double> &product) const;
   /** (C + dt K) x = right, scaled by the largest capacity. */

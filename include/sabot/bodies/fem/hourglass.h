@@ -13,6 +13,11 @@ namespace sabot
  *
  * by sums and differences of pairs: 20 additions instead of 28. In the unit of
  * x, of entries 1 in h (|h|^2 = 8). @p Value: double, Vec or Pack.
+ *
+ * The full sum of the rows of h is zero, so a translation has no modes;
+ * rotations of a parallelepiped have none either. What a linear field gives a
+ * cell that is no parallelepiped is taken off by the form: gamma_a = h_a -
+ * sum_b (h_b X_b) . B_a.
  */
 template <typename Value>
 inline void hourglass_sums(const Value x[8], Value mode[4])
@@ -26,8 +31,10 @@ inline void hourglass_sums(const Value x[8], Value mode[4])
   mode[3] = f - e;
 }
 
-/** Back: f_a = sum_m h_ma mode_m for the eight corners, the forces whose work
-    with x_a is that of mode_m with hourglass_sums(x)_m. */
+/** Back: f_a = sum_m h_ma mode_m for the eight corners, the forces whose
+    work with x_a is that of mode_m with hourglass_sums(x)_m. The transpose
+    of hourglass_sums(): sum_a f_a . x_a = sum_m mode_m . (sums of x)_m. f in
+    the unit of mode, overwritten. */
 template <typename Value>
 inline void hourglass_spread(const Value mode[4], Value f[8])
 {

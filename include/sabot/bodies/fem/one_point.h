@@ -34,6 +34,7 @@ public:
                                          const FemOptions &options,
                                          std::shared_ptr<const Material>);
 
+  /** One point a cell; cells come by set_up(). */
   OnePoint(const std::string &body_name, const FemOptions &options,
            std::shared_ptr<const Material> material)
       : Hexahedra(body_name, options, material, 1)
@@ -43,6 +44,8 @@ public:
   void set_up(
       const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
       const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
+  /** -[P B_a + modal forces], recomputed cell by cell with plain arithmetic;
+      P = V_0 J (sigma - q 1) F^-T and what the modes add. */
   void cell_forces(const NodalState &nodes, const std::size_t cell,
                    Vec force[8]) const override;
   void keep(const std::vector<std::size_t> &kept) override;
@@ -51,7 +54,9 @@ public:
 protected:
   Mat gradient(const std::size_t point) const override;
 
-  /** Whether the modes that a cell keeps are sum h_b X_b, set once. */
+  /** Whether the modes that a cell keeps are sum h_b X_b, set once. True for
+      a form with stiffness, which measures from the undeformed cell; a viscous
+     one keeps its forces of the last step, zero at first. */
   virtual bool keeps_reference_modes() const = 0;
   /** Modal forces of one cell in its present state [N], recomputed for a cell
       that is about to go.
@@ -62,7 +67,9 @@ protected:
                             const double present_volume, const Vec kept[4],
                             Vec mode[4], Mat &P) const = 0;
 
-  /** Reference data of four cells, read twice per step. */
+  /** Reference data of four cells, read twice per step. Gradients are means
+      over the cell (Flanagan & Belytschko 1981), V_0 is exact; node numbers
+      are local. */
   struct Geometry
   {
     Pack B[8][3];     // mean gradients [1/m]
@@ -71,14 +78,19 @@ protected:
     Pack size_square; // V_0^(2/3)
     std::uint32_t node[8][n_lanes];
   };
-  /** Per cell what the next step needs; what the modes are is up to the form of
-      hourglass control. */
+  /** Per cell what the next step needs; what the modes are is up to the form
+      of hourglass control. At the end of the last step; modes are kept
+      [mode][component]. With viscosity they are the modal forces of the last
+      step [N], for the work of the mean of both ends; with stiffness the
+      modes of the undeformed cell [m]. */
   struct Motion
   {
     PackMat F;
     Pack mode[4][3];
   };
-  /** Of one pack of cells, from kinematics to forces. */
+  /** Of one pack of cells, from kinematics to forces. Written by the
+      kinematics of the loop, read by scatter() once the law has the stress:
+      V_0 J F^-T in m^3, P in N m, modal forces in N. */
   struct Pending
   {
     PackMat stress_to_force; // V_0 J F^-T
@@ -87,7 +99,10 @@ protected:
   };
   static constexpr std::size_t packs_per_batch = batch_size / n_lanes;
 
-  /** Subtract the forces of the stress of a pack, and those that pend. */
+  /** Subtract the forces of the stress of a pack, and those that pend. -(P
+      B_a + sum over modes), P = (sigma - q 1) V_0 J F^-T + the modes' part;
+      corners are added cell by cell in ascending order, so that nodal sums
+      do not depend on ranks. */
   void scatter(NodalState &nodes, const std::size_t pack);
 
   AlignedVector<Geometry> geometry;
@@ -96,6 +111,8 @@ protected:
   alignas(64) Pending pending[packs_per_batch];
 
 private:
+  /** Lanes behind the last cell repeat it with a volume of 0: the arithmetic
+      stays finite and nothing is added. */
   void fill_up();
 };
 } // namespace sabot

@@ -30,8 +30,12 @@ class OnePointLoop : public OnePoint
 public:
   using OnePoint::OnePoint;
 
-  /** Kinematics, stress and forces, batch by batch. What a batch needs stays in
-      the first-level cache between the three. */
+  /** Kinematics, stress and forces, batch by batch. What a batch needs stays
+      in the first-level cache between the three. Nodal forces are
+      -f_internal [N], added to nodes.force; dt [s] leads from the last
+      positions to these, 0 at the start. Cells of other ranks' nodes are
+      here as well, so nothing is exchanged. Throws PhysicsError where a cell
+      inverts and the option says stop. */
   void add_forces(NodalState &nodes, const double dt) override
   {
     reset_steps();
@@ -50,23 +54,29 @@ public:
   }
 
 protected:
-  /** Four cells as they are now; nodal sums over the corners in the space of
-      the base vectors h_m are [component][mode]. */
+  /** Four cells as they are now; sums over the corners with the base vectors
+      h_m are [component][mode]. Set step by step by kinematics(). */
   struct FourCells
   {
+    explicit FourCells(const Geometry &g) : g(g) {}
     const Geometry &g;
+    /** F = sum x_a (x) B_a, the mean of the deformation gradient over the
+        cell (Flanagan & Belytschko 1981), from the undeformed state. */
     PackMat F, inverse; // F^-1
     PackMat S;          // sum B_a (x) B_a [1/m^2]
-    PackMat L;          // sum v_a (x) B_a [1/s]
+    PackMat L;          // sum v_a (x) B_a [1/s], where velocities are needed
     Pack J, J_inverse;
-    Pack J_root;      // J^(1/3)
-    Pack modal[3][4]; // sum h_a x_a [m]
-    Pack velocity[3][8];
+    Pack J_root;       // J^(1/3)
+    Pack modal[3][4];  // sum h_a x_a [m]
+    Pack corner[3][8]; // x_a [m], then v_a [m/s] where they are needed
   };
 
 private:
   /** From the positions of the corners of four cells to strain, spin, stable
-      step and hourglass forces, on one page; advances what they keep. */
+      step and hourglass forces, on one page; advances what they keep. In the
+      order of what depends on what: F, J; what inverts; l; strain for the
+      material; F^-1; stable step and viscosity; modes; hourglass forces. k =
+      4 (pack mod packs per batch) is the first point in the batch. */
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t pack, const double dt);
   void ask_for(const std::size_t pack) const;
@@ -83,7 +93,8 @@ private:
   static Pack step_of_quarter_volume(const FourCells &cells);
 };
 
-/** All cache lines of the pack that comes next. */
+/** All cache lines of the pack that comes next: four cells have 1.8 kB of
+    data, which the hardware's prefetcher finds too late. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
 {
@@ -99,7 +110,9 @@ SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
   ask(motion[pack]);
 }
 
-/** sum a_a (x) B_a of nodal vectors, which are kept by component. */
+/** sum a_a (x) B_a of nodal vectors, which are kept by component in @p value
+    for the hourglass sums: F of positions, L of velocities. Rigid motion gives
+    a rotation, since sum B_a = 0. */
 template <typename Form>
 SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
                                                          const Vec *const nodal,
@@ -120,7 +133,9 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
   return sum;
 }
 
-/** Cells that lost a third of their volume in one step are judged. */
+/** Cells that lost a third of their volume in one step are judged, see
+    Hexahedra::avoid_inversion(). Out of the way of all others: one comparison
+    for four cells. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
@@ -143,8 +158,10 @@ OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
     }
 }
 
-/** What the material needs: strain increment sym l, spin increment skew l,
-    J = det F and half of the mid volume V_0 (J + J_old)/2 [m^3]. */
+/** What the material needs: strain increment sym l, spin increment skew l, J
+    = det F and half of the mid volume V_0 (J + J_old)/2 [m^3]. Increments
+    without unit in the middle configuration, into the points k to k + 3 of
+    the batch. */
 template <typename Form>
 SABOT_IN_LOOP void
 OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
@@ -157,8 +174,10 @@ OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
   store_pack(&batch.half_volume[k], 0.25 * cells.g.volume * (cells.J + J_old));
 }
 
-/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces:
-    f_a = -(V_0 J sigma F^-T) B_a. */
+/** F^-1, and V_0 J F^-T, by which stress becomes nodal forces: f_a = -(V_0 J
+    sigma F^-T) B_a. Both come from the adjugate, J F^-1 = adj F, so that a
+    division by J is needed for the inverse only. The unit of the second is
+    [m^3]. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
 {
@@ -173,7 +192,10 @@ SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
 }
 
 /** G = F^-T S F^-1, the sum over the corners of b_a (x) b_a with the present
-    gradients b_a = F^-T B_a [1/m^2]; xx, yy, zz, xy, yz, xz. */
+    gradients b_a = F^-T B_a [1/m^2]; xx, yy, zz, xy, yz, xz. S = sum B_a (x)
+    B_a is constant, so the eight corners are not visited again. G measures
+    how thin the cell is now: a slab of thickness h has lambda_max G = 1/(2
+    h^2). */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::present_squares(const FourCells &cells,
                                                        Pack G[6])
@@ -195,6 +217,12 @@ SABOT_IN_LOOP void OnePointLoop<Form>::present_squares(const FourCells &cells,
  *
  * with the thickness h = (2 lambda_max G)^(-1/2), that of a slab. The damping
  * ratio of the cell's own compression is xi = c1 + c2 h |d|/c.
+ *
+ * Lame's constants are those at rest; Hexahedra shortens the step where the
+ * material has stiffened. d = tr l / dt [1/s], negative when closing; at dt = 0
+ * there is no rate and no viscosity. A negative lambda counts as 0, which keeps
+ * the bound safe. Writes q [Pa] into the batch and returns the step [s] of each
+ * lane.
  */
 template <typename Form>
 SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
@@ -222,7 +250,9 @@ SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
 }
 
 /** In which the present velocities take a quarter of the volume, the rate of
-    which is J tr(L F^-1) with L = sum v_a (x) B_a. */
+    which is J tr(L F^-1) with L = sum v_a (x) B_a. For the option shrink: dt
+    <= 0.25/|tr L F^-1| [s] of each lane; about infinite for cells that
+    expand. */
 template <typename Form>
 SABOT_IN_LOOP Pack
 OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
@@ -236,6 +266,18 @@ OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
   return 0.25 / pack_max(-rate, slowest + zero);
 }
 
+/**
+ * One step of four cells:
+ *
+ *   F = sum x_a (x) B_a                      deformation gradient
+ *   l = (F - F_old) F_m^-1                   strain and spin increment
+ *   V_0 J F^-T                               from stress to forces
+ *   dt, q                                    stable step, bulk viscosity
+ *   sum h_a x_a                              hourglass modes, by the form
+ *
+ * The stress follows for a whole batch (update_points), then the forces
+ * (scatter).
+ */
 template <typename Form>
 void OnePointLoop<Form>::kinematics(const CellConstants &constants,
                                     const NodalState &nodes,
@@ -245,11 +287,10 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
   Motion &kept = motion[pack];
   Pending &out = pending[pack % packs_per_batch];
   const std::size_t k = pack % packs_per_batch * n_lanes;
-  FourCells cells{geometry[pack], {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  FourCells cells(geometry[pack]);
   ask_for(pack + 1);
 
-  Pack x[3][8];
-  cells.F = nodal_gradient(cells.g, nodes.position.data(), x);
+  cells.F = nodal_gradient(cells.g, nodes.position.data(), cells.corner);
   const Pack J_old = determinant(kept.F);
   cells.J = determinant(cells.F);
   rest_what_inverts(nodes, pack, J_old, cells);
@@ -264,9 +305,9 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
 
   cells.J_root = pack_cbrt(cells.J);
   for (int i = 0; i < 3; ++i)
-    hourglass_sums(x[i], cells.modal[i]);
+    hourglass_sums(cells.corner[i], cells.modal[i]);
   if (Form::needs_velocities || shrinks)
-    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.velocity);
+    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.corner);
   if (shrinks)
     step = pack_min(step, step_of_quarter_volume(cells));
   static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, kept, out);

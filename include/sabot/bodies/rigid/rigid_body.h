@@ -15,15 +15,20 @@ class Parameters;
 
 namespace sabot
 {
-/** What a scene says about a rigid body, beside shape, material and name. */
+/** What a scene says about a rigid body, beside shape, material and name.
+    Vectors in the fixed frame; the rotation vector is about the center of
+    mass. */
 struct RigidOptions
 {
-  /** Prescribed: the initial velocities for ever, whatever the forces. */
+  /** Prescribed: the initial velocities for ever, whatever the forces. The
+      work that keeps them up counts as external. */
   bool is_prescribed = false;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   double cell_size = 0.; // that the mesh was asked for [m]
   std::array<double, 3> angular_velocity{{0., 0., 0.}}; // [1/s], at the start
 
+  /** The entries of the body's subsection; "Initial velocity" is read by the
+      body's builder. */
   static void declare_parameters(Parameters &prm);
   static RigidOptions parse(const Parameters &prm);
 };
@@ -40,10 +45,16 @@ struct RigidOptions
  * with Qm half way (implicit midpoint, four iterations): without forces l is
  * constant and the energy oscillates by O((omega dt)^2) without drift
  * (doc/theory-fem.md). Every rank knows the whole state.
+ *
+ * Q as a unit quaternion (w, x, y, z), renormalized every step. The density
+ * gives mass and the modulus contact's stiffness; there is no stress. Impulses
+ * are summed exactly over ranks, so that all have the same bits.
  */
 class RigidBody : public Body, public FaceView
 {
 public:
+  /** Mass, center and tensor of inertia of the whole mesh, so that every rank
+      has the same to the last bit. Of the material only the density counts. */
   RigidBody(const std::string &name, const int id, HexMesh mesh,
             std::shared_ptr<const Material> material,
             const RigidOptions &options);
@@ -52,36 +63,54 @@ public:
   {
     return mesh.nodes;
   }
+  /** Nodes of a rigid body have contact only, no cells to compute. */
   double partition_weight() const override { return 0.2; }
+  /** Arms r of the local nodes in the initial frame, faces whose nodes are
+      all here; the mesh is released. */
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
-  /** Takes up what the last kick did to the nodes, and moves them rigidly. */
+  /** Takes up what the last kick did to the nodes, and moves them rigidly.
+      sum m_a dv_a goes into p, sum (x_a - c) x m_a dv_a into l, dv_a what
+      has been added to the rigid velocity since the last call; a prescribed
+      body ignores it. Collective. */
   void impose_velocities(const double time) override;
+  /** Of a prescribed motion, -sum f . v dt/2 over the owned nodes [J]: what
+      keeps the body going does this work. */
   void accumulate_work(const double half_dt) override;
+  /** Nothing: every rank moves all of its nodes by the state it knows. */
   void update_ghosts() override {}
-  /** Moves the body by @p dt and clears the forces. */
+  /** Moves the body by @p dt and clears the forces, which the couplings then
+      add. */
   void compute_forces(const double time, const double dt) override;
-  /** A twentieth of a radian of rotation, for the midpoint rule; contact bounds
-      the step by its own. */
+  /** A twentieth of a radian of rotation, for the midpoint rule; contact
+      bounds the step by its own. [s]; the largest double for a body that
+      does not turn. */
   StableStep stable_step() const override;
   bool update_topology(const unsigned int, const double) override
   {
     return false;
   }
 
+  /** Kinetic energy of the owned nodes [J], which adds up to
+      p^2/(2 m) + omega . l/2, and the work of a prescribed motion on them. */
   void add_energies(EnergyLedger &ledger) const override;
+  /** Beside those of the nodes the angular velocity [1/s] in the fixed
+      frame. Collective. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
   bool is_held() const override { return options.is_prescribed; }
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
+  /** All boundary faces of the mesh that are complete here; the spacing is
+      the root of the mean area [m] of all, on every rank. */
   ContactSurface contact_surface() const override;
   const FaceView *faces() const override { return this; }
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override
   {
     return {};
   }
+  /** So it leads no tie and does not fold. */
   bool deform() const override { return false; }
   bool moves_node_by_node() const override { return false; }
 
@@ -95,13 +124,17 @@ public:
   const Mat &inertia_tensor() const { return inertia; }
 
 private:
-  /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. */
+  /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. Of a prescribed body the
+      angular velocity of the scene. */
   Vec spin(const Mat &rotation) const;
-  /** Faces whose nodes are all here, and the mean edge of all faces. */
+  /** Faces whose nodes are all here, and the mean edge of all faces. Ids of
+      faces are their numbers in the mesh. */
   void take_faces(const LocalPart &part);
-  /** Rigid motion of the owned nodes, v = p/m + omega x r. */
+  /** Rigid motion of the owned nodes, v = p/m + omega x r. Ghosts as well;
+      the owned ones are kept for the impulse of the next kick. */
   void set_velocities();
-  /** Rotation by a unit quaternion (w, x, y, z). */
+  /** Rotation by a unit quaternion (w, x, y, z). From the initial to the
+      present frame. */
   static Mat matrix(const std::array<double, 4> &quaternion);
 
   HexMesh mesh; // released after distribute()

@@ -17,6 +17,11 @@ namespace sabot
  * reverse[] leads from one to the other. Rows only get shorter, unless
  * connect() takes over new ones. What others keep per bond follows by carry()
  * after connect() and remove().
+ *
+ * Owned row i is [begin(i), end(i)); after removals there are unused places
+ * behind end(i), and arrays over bonds have capacity() of them, then the
+ * ghosts' bonds that end here. A bond is a pair of local indices; it has its
+ * state at both ends, each owned by the rank of its particle.
  */
 class BondList
 {
@@ -29,6 +34,10 @@ public:
    * distance, or with @p cubic along every axis. @p owned_ids: global numbers
    * of this rank's particles, ascending. Throws std::invalid_argument for
    * points that coincide.
+   *
+   * Buckets of one support, so the time is linear in the number of points.
+   * Points [m] are all of the body, by global number; the edge itself is
+   * outside (1e-9 of the support).
    */
   static Rows rows_within(const std::vector<std::array<double, 3>> &points,
                           const std::array<double, 3> &spacing,
@@ -39,29 +48,42 @@ public:
    * Rows of points of which one lies in the kernel of the other: |H^-1 dX| < 1,
    * or with @p cubic each component below 1. @p kernel: H of every point, or
    * one for all. Throws std::invalid_argument for points that coincide.
+   *
+   * Symmetric by construction: each rank finds a bond from both of its ends.
+   * Points and H in m, all of the body by global number. Local: every rank has
+   * all points at the start.
    */
   static Rows rows_in_kernels(const std::vector<std::array<double, 3>> &points,
                               const AlignedVector<Mat> &kernel,
                               const bool cubic,
                               const std::vector<GlobalIndex> &owned_ids);
 
-  /** Numbers in @p rows that are not owned, ascending. */
+  /** Numbers in @p rows that are not owned, ascending. Each number once.
+      Local. */
   static std::vector<GlobalIndex>
   ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids);
 
   /** Take over @p rows when ghosts are numbered. @p global_id of all local
-      particles, owners of the ghosts. Collective. */
+      particles, owners of the ghosts. Collective. Rows [n_owned] ascend.
+      Weights are zero until Approximation::update(); origin remembers which
+      bonds were there before, for carry(). Throws std::logic_error where a
+      bond is there from one end only. */
   void connect(const Rows &rows, const std::vector<GlobalIndex> &global_id,
                const std::vector<int> &ghost_owner, const GlobalIndex n_global,
                MPI_Comm communicator);
 
   /** Remove the bonds with dead[bond] != 0, marked from both ends alike on
-      all ranks. Collective. @return whether there were any on any rank. */
+      all ranks. Collective. @return whether there were any on any rank.
+      dead: over capacity(). Rows close up in place and keep their order;
+      reverse[] follows, and where a bond of any rank went the exchange of
+      ghosts' bonds is built anew. */
   bool remove(const std::vector<char> &dead);
 
-  /** Let an array over bonds follow the last connect() or remove(): values of
-      bonds that stayed move to their new places, new bonds get zeros, ghosts'
-      bonds room. */
+  /** Let an array over bonds follow the last connect() or remove(): values
+      of bonds that stayed move to their new places, new bonds get zeros,
+      ghosts' bonds room. Call exactly once per array and change. Local;
+      after connect() ghosts' entries have to be exchanged by
+      update_ghosts(). */
   template <typename Array>
   void carry(Array &data) const
   {
@@ -76,7 +98,10 @@ public:
 
   std::size_t begin(const std::size_t i) const { return row_start[i]; }
   std::size_t end(const std::size_t i) const { return row_start[i] + count[i]; }
+  /** Bonds of owned particle i that have not failed. */
   std::size_t n_bonds(const std::size_t i) const { return count[i]; }
+  /** Places of bonds of owned particles, used or not; constant between two
+      calls of connect(). */
   std::size_t capacity() const { return neighbor.size(); }
   /** Capacity and the bonds of ghosts that end here. */
   std::size_t n_with_ghosts() const
@@ -85,7 +110,8 @@ public:
   }
 
   /** Fill the entries of ghosts' bonds in an array over n_with_ghosts();
-      collective. */
+      collective. data [n_with_ghosts()]: entries from capacity() on are
+      filled by the owners of these bonds. */
   template <typename T>
   void update_ghosts(T *data) const
   {
@@ -93,7 +119,9 @@ public:
   }
 
   std::vector<std::uint32_t> neighbor; // local index
-  std::vector<std::uint32_t> reverse;  // into arrays over n_with_ghosts()
+  /** The same bond seen from the neighbor: data[reverse[b]] is its value at
+      the other end, ghosts' included. */
+  std::vector<std::uint32_t> reverse; // into arrays over n_with_ghosts()
   /** Symmetric weights, set by Approximation::update(): phi, and phi times the
       mean of |xi|^2 at both ends over |dX|^2 [1/m^2], the weight in units of
       the kernel's size. */
@@ -101,9 +129,12 @@ public:
 
   /** Rows, for checkpoints. After overwriting them, call reconnect(). */
   std::vector<std::uint32_t> count;
+  /** Finds reverse[] and the exchange of ghosts' bonds again. Collective. */
   void reconnect();
 
 private:
+  /** Bond of owned particle i to the neighbor with this global number.
+      Throws std::logic_error where there is none: the two ends must agree. */
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;
 
   static constexpr std::uint32_t is_new = 0xffffffffu;

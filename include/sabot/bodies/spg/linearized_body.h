@@ -11,14 +11,20 @@
 
 namespace sabot
 {
-/** Elastic stress of a small displacement gradient @p slope, with the moduli at
-    rest: 2 mu sym L + lambda tr L 1 [Pa]. */
+/** Elastic stress of a small displacement gradient @p slope, with the moduli
+    at rest: 2 mu sym L + lambda tr L 1 [Pa]. lambda = K - 2 mu/3. The skew
+    part of the slope has no stress: the reference state is free of stress,
+    so rotations are free. mu and lambda in Pa, slope without unit where the
+    motion is a displacement [m]; linear, so any unit goes through. Pressure
+    and deviator are those of the tangent at rest: equations of state are
+    linearized at zero pressure. */
 struct ElasticResponse
 {
   explicit ElasticResponse(const Material &law)
       : mu(law.shear_modulus()), lambda(law.bulk_modulus() - 2. / 3. * mu)
   {
   }
+  /** Symmetric; in the frame of the configuration of the last kernel update. */
   Mat operator()(const Mat &slope) const
   {
     const Mat strain = 0.5 * (slope + transpose(slope));
@@ -41,6 +47,16 @@ struct ElasticResponse
  *   void add_linearized(body, motion, force);  // what is not of this form
  *
  * @p motion [n_local], @p force [n_owned]. Collective.
+ *
+ * K is symmetric and positive semidefinite, so that Lanczos on M^-1 K finds the
+ * largest frequency of the body (largest_frequency()). Stress, damage and
+ * plastic flow of now are not in it: the step has to bear the elastic body,
+ * which is the stiffest. [N] for a motion in m, [N/s] for one in m/s.
+ *
+ * Ghosts: the motion's must be up to date; moments, slopes and stiffnesses of
+ * this rank's particles are exchanged once in between. Failed bonds are not in
+ * the list and thus not in K. Neighbors add up in global order: the result has
+ * the same bits for every number of ranks.
  */
 template <typename Form>
 void apply_linearized_body(const SpgParts &body, Form &form,

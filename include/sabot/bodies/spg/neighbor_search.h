@@ -18,6 +18,12 @@ struct SpgOptions;
  * the other, but those whose bond failed; or the present bonds and those pairs
  * of particles without a failed bond. Every rank gets every particle: new
  * neighbors may come from anywhere. Collective.
+ *
+ * Rows [n_owned] of global numbers, ascending, for SpgBody::renumber().
+ * Positions are the present ones, kernels those of owned particles in fields.
+ * One all-gather of about a hundred bytes per particle of the body, and buckets
+ * of the longest semi-axis of any kernel [m]: to be done at kernel updates
+ * only.
  */
 BondList::Rows search_neighbors(const SpgOptions &options,
                                 const NodalState &nodes, const BondList &bonds,

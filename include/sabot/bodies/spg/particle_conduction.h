@@ -32,7 +32,8 @@ namespace sabot
 class ParticleConduction
 {
 public:
-  /** What the body holds; valid while this lives. */
+  /** What the body holds; valid while this lives. Entries of ghosts are
+      needed for positions only; coefficients of ghosts are exchanged. */
   struct Cloud
   {
     const BondList &bonds;
@@ -46,14 +47,20 @@ public:
   ParticleConduction(const double conductivity, const Cloud &cloud,
                      std::vector<double> capacity, MPI_Comm communicator);
 
-  /** Conduct for @p dt [s]; @p temperature of owned particles [K] is updated.
-      Collective. */
+  /** Conduct for @p dt [s]; @p temperature of owned particles [K] is
+      updated. Collective. (C + dt K) dT = dt q(T), solved by conjugate
+      gradients to 1e-9 of the change with the bonds' part of K on the
+      diagonal; no matrix is stored. Throws PhysicsError where it does not
+      converge. */
   void advance(const double dt, double *temperature);
 
-  /** Heat that flows into each owned particle [W] by the temperatures of all;
-      collective. */
+  /** Heat that flows into each owned particle [W] by the temperatures of
+      all; collective. temperature is resized to all local particles and its
+      ghosts are filled; flow [n_owned] sums to zero over the body. After
+      assemble() only. */
   void heat_flow(std::vector<double> &temperature, std::vector<double> &flow);
-  /** Take over the configuration of the last kernel update. */
+  /** Take over the configuration of the last kernel update. b of each
+      particle, 0 where it has no bonds. Local. */
   void assemble();
 
 private:
@@ -61,6 +68,7 @@ private:
   const Cloud cloud;
   const std::vector<double> capacity;
   MPI_Comm communicator;
+  /** By which the system is scaled to entries of order 1 [J/K]. */
   double largest_capacity = 0.; // over ranks
   /** a and, in the fourth lane, b; owned and ghosts. */
   AlignedVector<Vec> coefficient;

@@ -18,6 +18,10 @@ namespace sabot
  *   F = F_inc F_ref,   dV = J_inc V_ref,
  *
  * F_inc incremental, since that update; F_ref and V_ref as of it. SI units.
+ *
+ * F maps vectors of the undeformed configuration to the present one. At a
+ * kernel update F_ref and V_ref take over F_inc and J_inc, and F_inc starts at
+ * 1 (Wu & Wu 2018, Eq. 16).
  */
 struct ParticleFields
 {
@@ -36,6 +40,8 @@ struct ParticleFields
   AlignedVector<Mat> generalized_stress;
 
   // Owned particles
+  /** Integral of the trilinear function of the node in meshes, cell of the
+      lattice in boxes; never changes. */
   std::vector<double> reference_volume;                     // V_0 [m^3]
   std::vector<double> kernel_reference_volume;              // V_ref [m^3]
   AlignedVector<Mat> incremental_deformation_gradient;      // F_inc
@@ -45,9 +51,13 @@ struct ParticleFields
   std::vector<double> stiffening;
   AlignedVector<Vec> own_force; // [N], without what couplings added
 
-  /** Undeformed particles with these volumes [m^3]. */
+  /** Undeformed particles with these volumes [m^3]. [n_owned]; F_inc = F_ref
+      = 1, V_ref = V_0, no stiffening. Kernels come later, by
+      LagrangianKernel::start(). */
   void allocate(const std::vector<double> &volume, const bool stiffens);
-  /** Room for ghosts: @p n_local particles, owned ones included. */
+  /** Room for ghosts: @p n_local particles, owned ones included. New entries
+      of stress are zero, of kernels the caller's to fill; positions at the
+      last update are set as a whole by the kernel update. */
   void resize(const std::size_t n_local);
 
   /** Total F of an owned particle. */
@@ -57,6 +67,8 @@ struct ParticleFields
            kernel_reference_deformation_gradient[i];
   }
 
+  /** Owned and ghost entries, as kernels of ghosts are those of the last
+      update. */
   void visit_state(StateVisitor &visitor);
 };
 } // namespace sabot

@@ -21,6 +21,11 @@ struct SpgOptions;
  * Where particles lie on the surface of their body: faces, outward normals,
  * planes of symmetry; and what they show to others without having faces, their
  * part of a surface and of a volume.
+ *
+ * Known from the cloud at the start: which faces a particle lies on and the
+ * mean of their outward normals, whose length is the cosine of the angle
+ * between them and the mean. Surfaces that open later have no normals. No
+ * function is collective.
  */
 class ParticleSurface
 {
@@ -31,7 +36,9 @@ public:
                   const std::string &path);
 
   /** Keep the particles with these global numbers, ascending; hold their
-      velocities across planes of symmetry and on clamped faces. */
+      velocities across planes of symmetry and on clamped faces. Mirror
+      images count: the normal on a plane of symmetry has no component across
+      it. */
   void distribute(const ParticleCloud &cloud,
                   const std::vector<GlobalIndex> &owned,
                   const std::uint32_t clamped_faces,
@@ -43,11 +50,16 @@ public:
 
   /** Where the model is cut, the same on every rank. */
   const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
-  /** All particles: any may come to lie open, so all may touch faces. */
+  /** All particles: any may come to lie open, so all may touch faces.
+      node_share is 1/2 per plane of symmetry through the particle; no faces.
+      Pa and m, of the body as a whole. */
   ContactSurface contact_surface(const double bulk_modulus,
                                  const double spacing) const;
-  /** Owned particle @p i, @p F its deformation gradient; normals go with F^-T,
-      areas with det F over the length of F^T n. */
+  /** Owned particle @p i, @p F its deformation gradient; normals go with
+      F^-T, areas with det F over the length of F^T n. Normal F^-T n/|F^-T
+      n|, spacing times sqrt(det F/|F^T n_now|) [m]; flatness goes linearly
+      from an edge of 90 degrees (cosine 0.75, little) to a facet (0.9, 1).
+      Zero where it has no normal. */
   SurfacePoint point(const std::size_t i, const Mat &F,
                      const double spacing) const;
 
@@ -63,8 +75,11 @@ private:
   AlignedVector<Vec> outward;         // owned, at the start, outward_normals()
 };
 
-/** Owned particle @p i as part of a volume (Body::volume_point): the shape of
-    its kernel, or of a ball where it lost a direction and has none. */
+/** Owned particle @p i as part of a volume (Body::volume_point): the shape
+    of its kernel, or of a ball where it lost a direction and has none.
+    Radius of 1.75 spacings in the shape of F_inc H; content = 12/pi V |det
+    to_unit|, as the integral of the cubic spline over the unit ball is
+    pi/12. */
 VolumePoint particle_volume(const std::size_t i, const ParticleFields &fields,
                             const Approximation &approximation,
                             const LagrangianKernel &kernel);

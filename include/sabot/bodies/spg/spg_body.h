@@ -39,10 +39,21 @@ namespace sabot
  * The body composes rooms of one idea each (SpgParts); the step itself stands
  * in spg_step.h. Every particle gathers its own force, neighbors in global
  * order, so results do not depend on the number of ranks.
+ *
+ * Nodes are the particles: owned ones by ascending global number, then ghosts.
+ * Units are SI; X is a place in the kernel-reference configuration, x in the
+ * present one; P = J sigma F^-T with F from X. Momentum is exact as pair terms
+ * are equal and opposite, angular momentum as P F^T is symmetric. Equations 16
+ * and 18 to 21 of Wu & Wu 2018 are followed for kernel update, weight and
+ * failure (doc/theory/spg.md).
  */
 class SpgBody : public Body
 {
 public:
+  /** Throws InputError, by the entry: a failure criterion that the material
+      cannot answer, conduction without temperature or conductivity, faces of
+      symmetry that are not a plane across an axis. Every rank has the whole
+      cloud here. */
   SpgBody(const std::string &name, const int id, ParticleCloud cloud,
           std::shared_ptr<const Material> material, const SpgOptions &options);
 
@@ -50,31 +61,60 @@ public:
   {
     return cloud.position;
   }
+  /** Cost of a particle over that of a node of finite elements. */
   double partition_weight() const override { return 4.; }
+  /** Owned particles with m = rho V (or row sums of convex functions), bonds
+      of the start by the kernels of both ends, functions, stable steps and
+      their first calibration. Throws InputError where particles coincide.
+      Collective. */
   void distribute(const std::vector<int> &owner,
                   MPI_Comm communicator) override;
 
+  /** Zero across planes of symmetry and on clamped faces. Local. */
   void impose_velocities(const double) override
   {
     constraints.impose(nodal_state);
   }
+  /** Positions only: forces do not ask for ghosts' velocities. Collective. */
   void update_ghosts() override;
+  /** Forces of owned particles [N] at the positions now, material advanced
+      by dt [s], 0 for forces only. Throws PhysicsError, after the last
+      exchange, where a particle has collapsed. Collective. */
   void compute_forces(const double time, const double dt) override;
+  /** Least of this rank's particles as of the last forces [s], with the
+      global number of the particle. */
   StableStep stable_step() const override;
+  /** Looks for failed bonds, updates the kernel where that is due, lets the
+      stabilization act between steps and conducts heat. True after a kernel
+      update, on all ranks alike: bonds and ghosts may be others then.
+      Collective. */
   bool update_topology(const unsigned int step, const double time) override;
 
+  /** Of owned particles [J]: kinetic, internal, stabilization (work done on
+      the form), plastic work, failure (what failed bonds and cracks let go).
+      Local. */
   void add_energies(EnergyLedger &ledger) const override;
+  /** By exact sums. A bond counts half at each end. Weak: particles that
+      lost a direction; isolated: those without a bond. Collective. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
+  /** By faces of symmetry or clamped ones, the rest of the scene aside. */
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
     return surface.planes();
   }
+  /** One per owned particle: place at the start [m], effective plastic
+      strain (0 where the law has none), failed fraction of its bonds. */
   std::vector<MaterialSite> material_sites() const override;
+  /** Owned particles as vertices. Collective where bonds may fail, for the
+      labels of fragments. */
   OutputMesh output_mesh() const override;
+  /** Bonds first, since arrays over bonds follow them; where neighbors are
+      searched the list itself is state. Collective. */
   void visit_state(StateVisitor &visitor) override;
 
+  /** All owned particles as nodes, no faces; see ParticleSurface. */
   ContactSurface contact_surface() const override;
   const ParticleView *particles() const override { return &views; }
   const FragmentView *fragments() const override { return &views; }
@@ -100,10 +140,13 @@ public:
   // For tests and verification problems: owned particles, components of
   // symmetric tensors in the order of n_symmetric.
   const BondList &bond_list() const { return bonds; }
+  /** Total F = F_inc F_ref, from the undeformed state. */
   Mat deformation_gradient(const std::size_t i) const
   {
     return fields.deformation_gradient(i);
   }
+  /** Cauchy stress without bulk viscosity and without the part of a form
+      [Pa]. */
   double stress(const std::size_t component, const std::size_t i) const
   {
     return points.stress_row(component)[i];
@@ -117,6 +160,8 @@ public:
   {
     return points.state(name)[i];
   }
+  /** Owned particles whose convex functions did not exist at the last
+      update. */
   std::size_t n_fallbacks() const { return approximation.n_fallbacks(); }
   std::size_t n_kernel_updates() const { return n_updates; }
   bool is_weak(const std::size_t i) const
@@ -126,18 +171,32 @@ public:
 
 private:
   /** Number ghosts and bonds by these rows of neighbors; everything that
-      belongs to them follows. Collective. */
+      belongs to them follows. Collective. A new exchange of particles,
+      positions, velocities and masses of ghosts, ghosts' bonds, room in the
+      fields, and what the form keeps per bond. Kernels of ghosts are up to
+      the caller. */
   void renumber(const BondList::Rows &rows);
-  /** Functions of the present kernels, and what follows from them. */
+  /** Functions of the present kernels, and what follows from them. At
+      kernel_reference_position, with the kernels of owned and ghost
+      particles up to date. Collective. */
   void update_functions();
-  /** Kernels and functions of the present configuration; failed bonds go, and
-      what they held is lost. Collective. */
+  /** Kernels and functions of the present configuration; failed bonds go,
+      and what they held is lost. Collective. Wu & Wu 2018, Eq. 16: F_ref :=
+      F_inc F_ref, V and H go by F_inc, X := x, F_inc := 1. A particle that
+      lost a direction lets go of the stress that it cannot bear. What the
+      form held before less what it holds after counts as failure [J] where
+      bonds or directions were lost. Then the stable steps, calibrated where
+      that is due. */
   void update_kernel(const unsigned int step);
-  /** The same, with the forces of now in the end. */
+  /** The same, with the forces of now in the end. What couplings had added
+      to the body's forces is kept: the half kick that follows uses the sum,
+      and the ledger counts its work. Collective. */
   void update_kernel_and_forces(const unsigned int step);
   /** Forces of now, material advanced by @p dt; the body's part is kept.
-      Collective. */
+      Collective. own_force is a copy of the result [n_owned], from which
+      later what couplings add can be told. */
   void evaluate_forces(const double dt);
+  /** Restored rows lead to new ghosts. Collective. */
   void visit_bonds(StateVisitor &visitor);
 
   ParticleCloud cloud; // positions and volumes released after distribute()

@@ -22,34 +22,43 @@ struct NodalState;
 struct ParticleFields;
 struct SpgOptions;
 
-/** Particles that go through the SPG step together; what they need stays in the
-    first-level cache. */
+/** Particles that go through the SPG step together; what they need stays in
+    the first-level cache. The same for all forms, whose own scratch has this
+    many places. */
 constexpr std::size_t spg_batch_size = 64;
 static_assert(spg_batch_size <= max_batch_points, "materials take no more");
 
-/** Owned particles [begin, end) of one batch. */
+/** Owned particles [begin, end) of one batch. Place k in the batch is
+    particle begin + k. */
 struct ParticleRange
 {
   std::size_t begin, end;
   std::size_t size() const { return end - begin; }
 };
 
-/** What the stages of the SPG step hand on, of one batch. */
+/** What the stages of the SPG step hand on, of one batch. One batch at a
+    time, places 0 to range.size() - 1; nothing in it survives the batch. Not
+    on the stack of the loop, so that alignment and address stay. */
 struct StepWork : PointStepArrays<spg_batch_size>
 {
   // Beside strain and spin increments, volume ratio, half of the mean volume
   // and viscous pressure (follow_motion) and what the return left (law):
-  /** Square of the stabilization's stress [Pa^2]; see MaterialBatch. */
+  /** Square of the stabilization's stress [Pa^2]; see MaterialBatch. 3 tau^2
+      in q^2 = 3/2 s : s + 3 tau^2 <= sigma_y^2, so that mean deviator and
+      fluctuation share one yield condition (doc/theory/spg.md). */
   double extra_square[spg_batch_size] = {};
   /** F_new F_old^-1 - 1: how the particle's neighborhood moves in this step,
-      by which residuals and higher gradients follow. */
+      by which residuals and higher gradients follow. In the frame of the
+      last step; not symmetric. */
   Mat relative_gradient[spg_batch_size];
   /** F^-T of the incremental F: V sigma F^-T is the nominal stress by which
-      forces act on the kernel's reference configuration. */
+      forces act on the kernel's reference configuration. By rows; det F_inc
+      is not in it. */
   Mat inverse_transpose[spg_batch_size];
 };
 
-/** What the SPG step finds out about all owned particles on the way. */
+/** What the SPG step finds out about all owned particles on the way. Of this
+    rank only; whoever decides by it for the body reduces it over ranks. */
 struct StepWatch
 {
   double stable_step = std::numeric_limits<double>::max(); // [s]
@@ -69,24 +78,32 @@ struct StepWatch
 /**
  * The rooms of one SPG body, for what works on several of them: the step, the
  * forms of stabilization, the stable step. Valid while the body lives.
+ *
+ * References, not copies; what a function may change is what it gets without
+ * const. No room knows the body itself.
  */
 struct SpgParts
 {
   const std::string &name; // of the body, for messages
   const SpgOptions &options;
-  /** Positions (with ghosts, up to date when forces are asked for), velocities,
-      masses; forces of owned nodes are the step's result. */
+  /** Positions (with ghosts, up to date when forces are asked for),
+      velocities, masses; forces of owned nodes are the step's result.
+      Ghosts' velocities and masses are those of the last renumbering only. */
   NodalState &nodes;
   const GhostExchange &exchange; // of particles
   BondList &bonds;        // neighbors of owned particles, symmetric weights
   ParticleFields &fields; // deformation and kernels
   MaterialPoints &points; // stress and state, one point a particle
+  /** Spacings and support of the start, limits of the update. */
   const LagrangianKernel &kernel;
   const Approximation &approximation; // moments or stored gradients
   BondFailure &failure;               // failed bonds and what they let go
+  /** Rule for particles that lost a direction; has scratch space, so one a
+      body. */
   ResidualStrength &residual_strength;
   const SpgStableStep &stable_step;
   const VelocityConstraints &constraints;
+  /** Scratch of the step, and what it has found out. */
   StepWork &work;
   StepWatch &watch;
 };

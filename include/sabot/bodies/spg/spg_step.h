@@ -13,11 +13,17 @@
 
 namespace sabot
 {
-/** What the first stage reads and writes of @p body. */
+/** What the first stage reads and writes of @p body. Pointers into the rooms
+    of the body, valid until a kernel update; at rest: density [kg/m^3] and
+    dilatational wave speed [m/s] of the law. Local. */
 MotionViews motion_views(SpgParts &body, const double dt);
 
 /** Third stage: rotation, law (or what failed metal carries) and work of the
-    particles of @p range over @p dt > 0. */
+    particles of @p range over @p dt > 0. MaterialPoints::rotate(), the law's
+    update() of the batch, MaterialPoints::finish(). Where a particle of the
+    range lost a direction, the rule for failed metal (ResidualStrength)
+    stands in for the law and counts what cracks let go [J]. Laws that need F
+    get the total one. Leaves theta in work.return_factor. Local. */
 void update_stress(const ParticleRange &range, SpgParts &body, const double dt);
 
 /**
@@ -25,6 +31,13 @@ void update_stress(const ParticleRange &range, SpgParts &body, const double dt);
  * sigma - q 1 and what the form adds to it,
  *
  *   V P = J V_ref (sigma + form) F^-T,  Q = V P M^-1   (least squares).
+ *
+ * J V here is the present volume: work.jacobian is the total volume ratio,
+ * reference_volume that of the start, so both give J_inc V_ref. The total
+ * stress is in the present frame, P maps vectors of X to forces. Stored by
+ * columns, with the form's stiffness theta k in the fourth lane of the first:
+ * one exchange and one load per neighbor bring both. V P [J], Q [J/m^2]. Local;
+ * writes owned entries.
  */
 template <bool stored_gradients, typename Form>
 inline void generalize_stress(const ParticleRange &range, const StepWork &work,
@@ -49,7 +62,9 @@ inline void generalize_stress(const ParticleRange &range, const StepWork &work,
   }
 }
 
-/** What gather_forces() reads; owned particles and ghosts but for bonds. */
+/** What gather_forces() reads; owned particles and ghosts but for bonds.
+    Ghosts' entries must have been exchanged; shape_gradient includes the
+    bonds of ghosts that end here, to which reverse[] leads. */
 struct ForceViews
 {
   const BondList &bonds;
@@ -67,6 +82,11 @@ struct ForceViews
  *   f_N = sum_J [ V_N P_N g_NJ - V_J P_J g_JN ]  (stored gradients),
  *
  * and per bond what the form adds by its neighbors' fourth lanes.
+ *
+ * Every term appears at the other end with the opposite sign, so the sum of all
+ * forces is zero to round-off. A bond is computed twice, once from each end,
+ * which needs no locks and no exchange of forces. Overwrites force [n_owned] in
+ * N, fourth lanes 0. Local.
  */
 template <bool stored_gradients, typename Form>
 inline void gather_forces(const ForceViews &in, const Form &form,
@@ -118,6 +138,12 @@ inline void gather_forces(const ForceViews &in, const Form &form,
  *   void add_forces(body);           // what is not a sum over one ring
  *
  * Collective.
+ *
+ * Order: all that depends on one particle alone batch by batch, then the
+ * exchange of the generalized stress, then forces. Positions of ghosts are up
+ * to date on entry. body.watch gets the stable step and the first problem,
+ * which the caller throws after the last exchange. At dt = 0 stress and
+ * energies stay and theta = 1.
  */
 template <bool stored_gradients, typename Form>
 void spg_step(SpgParts &body, Form &form, const double dt)
@@ -152,7 +178,8 @@ void spg_step(SpgParts &body, Form &form, const double dt)
   form.add_forces(body);
 }
 
-/** spg_step() by how the body's approximation has its gradients. */
+/** spg_step() by how the body's approximation has its gradients. One test a
+    step: both ways of the loop are compiled. Collective. */
 template <typename Form>
 void run_spg_step(SpgParts &body, Form &form, const double dt)
 {

@@ -15,6 +15,9 @@ namespace sabot
  * An SPG body as couplings and reports see particles: parts of a surface and of
  * a volume without faces and cells, what has come loose, and the pieces that
  * bonds still hold together. Doc of the functions: body.h.
+ *
+ * Nothing is stored: each answer is made from the body's present state.
+ * References only, so it must not outlive the body.
  */
 class SpgViews : public ParticleView, public FragmentView
 {
@@ -27,17 +30,25 @@ public:
   }
 
   // Owned particles by local index, now
-  /** Zero normal where it does not lie on the surface of the start. */
+  /** Zero normal where it does not lie on the surface of the start. Normal
+      and area follow the total F. Normal and spacing [m] follow the total F. */
   SurfacePoint surface_point(const std::size_t i) const override;
+  /** The kernel's ellipsoid, carried on by F_inc since the last kernel
+      update. */
   VolumePoint volume_point(const std::size_t i) const override;
-  /** All that have a failed bond: they may meet others again. */
+  /** All that have a failed bond: they may meet others again. Bulk modulus
+      [Pa] at rest and mean spacing of the start [m] for the stiffness of
+      their contact. */
   DebrisView debris() const override;
+  /** i local and owned, j global; a walk along the row of i. */
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
+  /** Of this rank, every bond at each owned end. */
   std::size_t n_bonds() const override;
+  /** By labels(); collective. */
   std::vector<Fragment> connected_pieces() const override;
 
   /** Label of the piece of each owned particle, see fragment_labels().
-      Collective. */
+      Collective. [n_owned]; pieces by bonds that have not failed. */
   std::vector<GlobalIndex> labels() const;
 
 private:

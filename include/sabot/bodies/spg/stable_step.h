@@ -24,21 +24,35 @@ struct SpgParts;
  * times a factor that says by how much the bound is too short. That factor is
  * measured on the whole body (Lanczos) and holds for particles whose bonds are
  * all there; the others keep the bound.
+ *
+ * Any eigenvalue of M^-1 K is at most the largest row sum of absolute values
+ * over the mass (Gershgorin); each particle keeps its own row's 2/sqrt(row/m),
+ * so that the log can say who limits the step. Longer neighborhoods make rows
+ * longer but not frequencies higher, which is what the factor gives back: 2 to
+ * 2.5 in an intact cloud.
  */
 class SpgStableStep
 {
 public:
   void allocate(const std::size_t n_owned) { step.resize(n_owned); }
 
-  /** Bound of each owned particle, with the present factor. Collective. */
+  /** Bound of each owned particle, with the present factor. Collective.
+      2/sqrt(row sum/m) [s]; a particle without any stiffness gets two
+      spacings over the wave speed. Particles with failed bonds get the bound
+      without the factor. */
   void estimate(const SpgParts &body, const Stabilization &form);
   /** Measure the factor anew. @p step_number: now; 0: the body's first, from
-      which later factors may not go up. Collective. */
+      which later factors may not go up. Collective. factor = 0.99
+      sqrt(3)/(omega_max least bound), between 1 and that of the start,
+      omega_max by 30 Lanczos iterations: steps end at omega dt = sqrt(3),
+      the third-order resonance of central differences (Skeel, Zhang &
+      Schlick 1997), not at 2. */
   void calibrate(const SpgParts &body, Stabilization &form,
                  const std::size_t step_number, const bool is_first,
                  MPI_Comm communicator);
   /** Whether the last calibration is old, or the bound itself has moved.
-      Collective. */
+      Collective. Old: 300 steps. Moved: the least bound differs by 5 % from
+      that of the last calibration. */
   bool calibration_is_due(const SpgParts &body, const std::size_t step_number,
                           MPI_Comm communicator) const;
 
@@ -58,9 +72,10 @@ private:
 };
 
 /** Largest frequency of the linearized body at rest [rad/s] by @p n Lanczos
-    iterations on M^-1 K, from below: the Krylov space of the power iteration,
-    of which it takes the best vector. The same on every number of ranks.
-    Collective. */
+    iterations on M^-1 K, from below: the Krylov space of the power
+    iteration, of which it takes the best vector. The same on every number of
+    ranks. Collective. In y = sqrt(m) v, from a start vector made of the
+    particles' numbers; dot products are exact sums. */
 double largest_frequency(const SpgParts &body, Stabilization &form,
                          const unsigned int n, MPI_Comm communicator);
 } // namespace sabot

@@ -18,15 +18,18 @@ namespace sabot
 class Coulomb : public FrictionLaw
 {
 public:
-  /** @p at_rest: mu_s; @p sliding: mu_d; @p decay: beta. */
+  /** @p at_rest: mu_s >= 0; @p sliding: mu_d <= mu_s, none: mu_s at all speeds;
+      @p decay: beta >= 0, counts only where there is mu_d. The parameter file's
+      values are checked, these are not. */
   explicit Coulomb(const double at_rest,
                    const std::optional<double> &sliding = std::nullopt,
                    const double decay = 0.)
       : at_rest(at_rest), sliding(sliding), decay(decay)
   {
   }
-  /** mu at the speed of sliding @p speed [m/s]. */
+  /** mu at the speed of sliding @p speed [m/s], between mu_d and mu_s. */
   double coefficient(const double speed) const;
+  /** mu(speed) times pressing. */
   void find_friction(const SlidingContacts &contacts,
                      std::vector<double> &friction) const override;
 
@@ -36,7 +39,8 @@ private:
   const double decay;
 };
 
-/** A law to hand to ContactOptions where no parameter file does. */
+/** A law to hand to ContactOptions where no parameter file does; arguments as
+    of the constructor. */
 inline std::shared_ptr<const FrictionLaw>
 coulomb(const double at_rest,
         const std::optional<double> &sliding = std::nullopt,

@@ -11,8 +11,10 @@ class Parameters;
 
 /**
  * Friction per area that metals bear, whatever the law of friction asks for:
- * nothing, a given stress, or the shear flow stress Y/sqrt(3) of the softer
- * side (von Mises in simple shear) with its present flow stress Y.
+ * any (no limit), a given stress, or the shear flow stress Y/sqrt(3) of the
+ * softer side (von Mises in simple shear), Y the uniaxial flow stress of the
+ * metal that touches, with its present plastic strain, temperature and
+ * pressure, at no rate, as of the last search.
  */
 class ShearStrength
 {
@@ -21,12 +23,14 @@ public:
   ShearStrength() = default;
   /** @p tau: [Pa], > 0. */
   static ShearStrength given(const double tau);
-  /** From the flow stresses of the two sides. */
+  /** From the present flow stresses of the two sides. */
   static ShearStrength of_yield();
 
+  /** The entry `Shear strength`: `none`, `yield`, or a stress. */
   static void declare_parameters(Parameters &prm);
   void parse_parameters(const Parameters &prm);
 
+  /** False: areas of contact need not be known. */
   bool is_limited() const { return from_yield || stress.has_value(); }
   /** Whether of_metals() needs flow stresses; if not, they are not asked for.
    */

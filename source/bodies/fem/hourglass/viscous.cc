@@ -41,7 +41,7 @@ public:
     const Pack bounded = pack_min(coefficient, strongest);
     Pack rate[3][4];
     for (int i = 0; i < 3; ++i)
-      hourglass_sums(cells.velocity[i], rate[i]);
+      hourglass_sums(cells.corner[i], rate[i]);
     out.hourglass = {};
     Pack work = zero;
     for (int m = 0; m < 4; ++m)

@@ -28,6 +28,11 @@ struct ParticleFields;
  * kernel, where a compressed but complete neighborhood looks like an intact
  * one: a direction counts as lost where its eigenvalue is below a fraction of
  * the intact middle one (doc/theory-spg.md).
+ *
+ * First order: sum g_NJ = 0 with the particle itself, sum dX (x) g_NJ = 1 where
+ * no direction is lost, so that F is exact for linear fields on any cloud.
+ * Frame: X, not the present configuration; weights do not change between
+ * updates.
  */
 class Approximation
 {
@@ -38,7 +43,11 @@ public:
   /** Weights of bonds, moments, lost directions, and where they are stored
       gradients, for the kernels and positions in @p fields. The first call
       defines what intact is. @p second_derivatives: where A grad grad Psi_J
-      go, or null. Collective. */
+      go, or null. Collective. H and X of ghosts must be up to date. Lost
+      directions: eigenvalues e below 0.15 of the intact middle one, e0, get
+      the inverse e/(0.15 e0)^2 instead of 1/e; with fewer than four bonds
+      M^-1 = 0 (doc/theory/spg.md). What was lost is whole again only once
+      its volume has closed. */
   void update(BondList &bonds, const ParticleFields &fields,
               const LagrangianKernel &kernel,
               AlignedVector<Mat> *second_derivatives);
@@ -49,8 +58,9 @@ public:
                          const GhostExchange &exchange);
 
   bool stores_gradients() const { return stores; }
-  /** Gradient g of the function of bond @p b's neighbor at its owned particle,
-      @p dX to it, @p moment_inverse of that particle [1/m]. */
+  /** Gradient g of the function of bond @p b's neighbor at its owned
+      particle, @p dX to it, @p moment_inverse of that particle [1/m]. With
+      stored gradients weight and moment are not looked at. */
   Vec gradient(const std::size_t b, const double weight,
                const Mat &moment_inverse, const Vec dX) const
   {
@@ -60,13 +70,16 @@ public:
       got damped least squares. */
   std::size_t n_fallbacks() const { return n_fallback; }
 
+  /** Stored gradients; those of ghosts' bonds are exchanged when restoring. */
   void visit_bonds(StateVisitor &visitor, const BondList &bonds);
   void visit_state(StateVisitor &visitor);
 
   // Owned particles
   AlignedVector<Mat> moment_inverse; // M^-1, lost directions damped [1/m^2]
   /** Whether the bonds of a particle no longer span space: for what failed
-      metal carries. */
+      metal carries. Until its volume has come back to that of the start,
+      also where its neighborhood spans space again: a crack heals only once
+      it has closed. */
   std::vector<char> lost_direction;
   std::vector<double> spread;        // S = sum phi |xi|^2
   std::vector<double> intact_spread; // S of the start

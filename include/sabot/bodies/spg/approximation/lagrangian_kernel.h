@@ -23,8 +23,11 @@ class LagrangianKernel
 public:
   LagrangianKernel(const SpgOptions &options, const ParticleCloud &cloud);
 
-  /** Semi-axes of the kernels at the start: one matrix for all particles of a
-      regular lattice, else one each. */
+  /** Semi-axes of the kernels at the start: one matrix for all particles of
+      a regular lattice, else one each. Support times S [m]: spacings on the
+      diagonal in a lattice; on a mesh S^2 is the mean over the cells around
+      of a (x) a + b (x) b + c (x) c with the cells' mean edges. Of all
+      particles, by global number. */
   AlignedVector<Mat> initial_kernels(const ParticleCloud &cloud) const;
   /** Keep those of the owned particles, unless one does for all. */
   void distribute(const AlignedVector<Mat> &kernels,
@@ -38,17 +41,23 @@ public:
     return step % interval == 0;
   }
   /** Whether any owned particle's Green strain since the last update reaches
-      the limit; rotation needs no update. */
+      the limit; rotation needs no update. On this rank; the caller asks the
+      others. */
   bool has_strained(const ParticleFields &fields) const;
   /** Whether a particle has been stretched or flattened by so much that the
-      update cannot wait. @p change: largest of |F|^2 - 2 and |F^-1|^2 - 2. */
+      update cannot wait. @p change: largest of |F|^2 - 2 and |F^-1|^2 - 2.
+      sqrt(change) against the entry "Kernel update change"; on this rank. */
   bool has_changed(const double change) const;
   /** Let kernels, volumes and F of the owned particles follow what happened
-      since the last update, which starts anew. */
+      since the last update, which starts anew. Wu & Wu 2018, Eq. 16: H :=
+      F_inc H, V_ref := J_inc V_ref, F_ref := F_inc F_ref, F_inc := 1.
+      Ghosts' kernels have to be exchanged afterwards. Singular values of H
+      over that of the start are kept within 0.15 and 6. */
   void follow(ParticleFields &fields) const;
 
   /** Edge of the cube as large as the cell of an owned particle's lattice at
-      the start [m]; mean_spacing() in a regular lattice. */
+      the start [m]; mean_spacing() in a regular lattice. det(S)^(1/3). Does
+      not follow the motion. */
   double local_spacing(const std::size_t i) const;
   double mean_spacing() const { return mean; }
   const std::array<double, 3> &axis_spacing() const { return spacing; }

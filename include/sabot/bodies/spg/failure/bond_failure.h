@@ -22,28 +22,41 @@ struct SpgOptions;
  * Bonds that fail: found by find(), removed and counted once by remove(), and
  * what their particles lose with them. The criterion is evaluated once per
  * look.
+ *
+ * Wu & Wu 2018, Eqs. 19 to 21: (m_N + m_J)/2 > m_crit and |dx| > s_crit |dX at
+ * the start|, s_crit >= 1. Symmetric in the two ends, so both ranks of a bond
+ * come to the same verdict.
  */
 class BondFailure
 {
 public:
+  /** Copies what it needs of the options; pairs are remembered only under
+      the policy that searches all pairs. */
   explicit BondFailure(const SpgOptions &options);
 
   void allocate(const std::size_t n_owned);
+  /** Every few steps: a regular kernel update looks as well. Failure is a
+      property of the material, not of the search for neighbors: it has its
+      own interval, shorter than that of kernel updates. */
   bool is_due(const unsigned int step) const { return step % interval == 0; }
 
-  /** Mark the bonds whose criterion is met now: its mean over both ends above
-      the critical value, and the distance above the critical stretch times
-      that of the start. Equal at both ends. Collective.
-      @return whether there are any on this rank. */
+  /** Mark the bonds whose criterion is met now: its mean over both ends
+      above the critical value, and the distance above the critical stretch
+      times that of the start. Equal at both ends. Collective. @return
+      whether there are any on this rank. Positions of ghosts must be up to
+      date. Nothing is changed but the marks; exits at once where the
+      criterion can never be met. */
   bool find(const NodalState &nodes, const BondList &bonds,
             const ParticleFields &fields, const MaterialPoints &points,
             const GhostExchange &exchange);
-  /** Remove the bonds that the last find() marked and count them; arrays over
-      bonds must then be carried over. Collective.
-      @return whether the list has changed, the same on all ranks. */
+  /** Remove the bonds that the last find() marked and count them; arrays
+      over bonds must then be carried over. Collective. @return whether the
+      list has changed, the same on all ranks. Each end counts its own, so a
+      bond counts twice in the sum of n_failed. */
   bool remove(const NodalState &nodes, BondList &bonds);
 
-  /** Failed bonds of an owned particle over all it ever had. */
+  /** Failed bonds of an owned particle over all it ever had.
+      n_failed/(n_failed + bonds left); 0 for a particle that never had any. */
   double failed_fraction(const BondList &bonds, const std::size_t i) const;
 
   /** As a neighbor search needs them, empty where there is none: the global

@@ -16,6 +16,10 @@ struct ParticleFields;
  * its two particles exceeds the critical value and its stretch the critical
  * stretch (Wu & Wu 2018, Eqs. 19-21, for the effective plastic strain). One
  * file a criterion.
+ *
+ * Criteria have no state: what a bond has borne before is in the state of the
+ * law. Damage is never mended, even where the measure falls again, since failed
+ * bonds are removed.
  */
 class FailureCriterion
 {
@@ -24,7 +28,8 @@ public:
   using Make = std::unique_ptr<const FailureCriterion>(const Parameters &,
                                                        const std::string &path);
 
-  /** @p critical: in the unit of the measure; nothing: bonds never fail. */
+  /** @p critical: in the unit of the measure; nothing: bonds never fail. Pa
+      for a stress, without unit for a strain. */
   explicit FailureCriterion(const std::optional<double> critical)
       : critical(critical)
   {
@@ -35,19 +40,23 @@ public:
   /** Only where can_be_met(). */
   double critical_value() const { return *critical; }
 
-  /** The effective plastic strain at which a bond may fail, where that is what
-      the measure is. */
+  /** The effective plastic strain at which a bond may fail, where that is
+      what the measure is. For estimates before the run; nothing for other
+      measures, or where bonds never fail. */
   virtual std::optional<double> critical_plastic_strain() const
   {
     return std::nullopt;
   }
 
   /** Throws InputError where the body's material does not know what the
-      measure needs. @p path: of the body. */
+      measure needs. @p path: of the body. Called once, when the body is
+      made. */
   virtual void check(const MaterialPoints &, const std::string & /*path*/) const
   {
   }
-  /** The measure of every owned particle, into @p value [n_owned]. */
+  /** The measure of every owned particle, into @p value [n_owned]. Not
+      averaged over neighbors: BondFailure takes the mean of the two ends and
+      exchanges ghosts. Local. */
   virtual void measure(const MaterialPoints &points,
                        const ParticleFields &fields, double *value) const = 0;
 
@@ -56,7 +65,7 @@ private:
 };
 
 /** Declares an entry of a critical value whose default is the word "never",
-    of a stress [Pa], or of a strain. */
+    of a stress [Pa], or of a strain. Negative values are refused. */
 void declare_critical_stress(Parameters &prm, const std::string &name,
                              const std::string &meaning);
 void declare_critical_strain(Parameters &prm, const std::string &name,

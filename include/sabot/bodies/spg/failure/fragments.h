@@ -13,16 +13,21 @@ namespace sabot
 class BondList;
 class GhostExchange;
 
-/** Label of the connected piece that each owned particle belongs to: the least
-    global number in it, the same on every number of ranks. Collective. */
+/** Label of the connected piece that each owned particle belongs to: the
+    least global number in it, the same on every number of ranks. Collective.
+    [n_owned]. Particles of a rank are joined by union-find along the bonds
+    that have not failed, then labels go over the border of ranks until
+    nothing changes; the number of rounds is that of the rank borders that a
+    piece crosses. A particle without bonds is a piece of its own. */
 std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
                                          const BondList &bonds,
                                          const GhostExchange &exchange,
                                          MPI_Comm communicator);
 
 /** The pieces themselves, heaviest first; masses [kg] and momenta are exact
-    sums, so they do not depend on the number of ranks. Collective, the same on
-    all ranks. */
+    sums, so they do not depend on the number of ranks. Collective, the same
+    on all ranks. label: of the owned particles, see fragment_labels().
+    Velocity is sum m v / sum m [m/s] with the lumped masses. */
 std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const std::vector<GlobalIndex> &label,
                                      MPI_Comm communicator);

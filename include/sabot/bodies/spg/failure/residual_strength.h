@@ -11,7 +11,8 @@ namespace sabot
 {
 class Parameters;
 
-/** Which points of a batch have failed, and where their losses go: [n] each. */
+/** Which points of a batch have failed, and where their losses go: [n] each.
+    loss is added to: 2 half_volume times a work per volume [J/m^3]. */
 struct FailedPoints
 {
   const char *is_failed;
@@ -38,11 +39,15 @@ public:
 
   virtual ~ResidualStrength() = default;
 
-  /** Stress and state at the end of the step, in place of law.update(). */
+  /** Stress and state at the end of the step, in place of law.update().
+      Stress is without bulk viscosity, in the frame of the end of the step,
+      to which MaterialPoints::rotate() has turned it. Must set return factor
+      and plastic work as a law does. n <= max_batch_points. Local. */
   virtual void update(const Material &law, const MaterialBatch &points,
                       const FailedPoints &failed) = 0;
-  /** Take away what a particle cannot bear that failed between two steps.
-      @p stress in the order of n_symmetric [Pa]. */
+  /** Take away what a particle cannot bear that failed between two steps. @p
+      stress in the order of n_symmetric [Pa]. In the present frame, in
+      place; what is taken away is booked by release_stress(). */
   virtual void release(double stress[n_symmetric]) const = 0;
 };
 } // namespace sabot

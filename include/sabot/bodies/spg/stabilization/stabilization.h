@@ -26,6 +26,10 @@ struct SpgParts;
  *
  * All functions act on the whole body, on all ranks alike; those that exchange
  * ghosts say "collective".
+ *
+ * Requirements on a form: it vanishes for linear fields and for rigid motions,
+ * keeps both momenta exact, and its work is counted by work(), so that the
+ * ledger closes (doc/theory/spg.md).
  */
 class Stabilization
 {
@@ -43,7 +47,8 @@ public:
       over BondList::n_with_ghosts() [1/m]; null where the form needs none. */
   virtual AlignedVector<Mat> *second_derivatives() { return nullptr; }
 
-  /** Once, before anything else, for the owned particles. */
+  /** Once, before anything else, for the owned particles. Sets work() to
+      zero, [n_owned]; forms that override it call it. */
   virtual void allocate(const SpgParts &body);
   /** The list of bonds has changed: carry over what belongs to those that
       stayed. */
@@ -53,23 +58,29 @@ public:
 
   /** What holds a particle's bonds now, positions as at the last force
       evaluation: forces of owned nodes [N], stress and energies advanced by
-      @p dt [s] (0: forces only). Collective. */
+      @p dt [s] (0: forces only). Collective. body.nodes.force is
+      overwritten. The form yields with the material: its stress enters by
+      extra_square and is scaled by the return factor. */
   virtual void compute_forces(SpgParts &body, const double dt) = 0;
   /** What is done to the motion between two steps; @p step: the last one's
       number. Collective. */
   virtual void after_step(SpgParts &, const unsigned int) {}
 
-  /** A kernel update begins; bonds, kernels and functions are the old ones. */
+  /** A kernel update begins; bonds, kernels and functions are the old ones.
+      A form that is late with something (a return factor due on residuals)
+      settles it here. Local. */
   virtual void begin_kernel_update(const SpgParts &) {}
   /** Bonds, moments and functions are new ones, at the start and after every
-      kernel update. */
+      kernel update. Where a form finds the stiffness of a particle, as far
+      as it depends on kernel and moment. Local. */
   virtual void follow_functions(const SpgParts &) {}
   /** The end of a kernel update: the reference configuration is the present
       one. @p was_lost: which particles had lost a direction before. */
   virtual void end_kernel_update(const SpgParts &, const std::vector<char> &) {}
 
-  /** Energy that an owned particle's bonds hold and would lose with them [J],
-      0 where the form holds none. */
+  /** Energy that an owned particle's bonds hold and would lose with them
+      [J], 0 where the form holds none. For the ledger's failure: what is
+      held before bonds go, less what is held after. Local. */
   virtual double held_energy(const SpgParts &, const std::size_t) const
   {
     return 0.;
