@@ -1,10 +1,9 @@
 // One-point hexahedra: patch test and hourglass modes.
 #include "sabot/materials/laws.h"
+#include "verification/linear_algebra.h"
 #include "verification/meshes.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <Eigen/Dense>
 
 namespace sabot
 {
@@ -118,9 +117,7 @@ Eigen::VectorXd spectrum(const HexMesh &mesh, const FemOptions &options,
       x = x0;
       body.compute_forces(0., 1.);
     }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 *
-                                                        (K + K.transpose()))
-      .eigenvalues();
+  return symmetric_eigenvalues(0.5 * (K + K.transpose()));
 }
 
 int n_zero(const Eigen::VectorXd &values)

@@ -1,7 +1,6 @@
 // Natural frequencies of a free cube by Rayleigh-Ritz.
 #include "verification/free_block.h"
-
-#include <Eigen/Eigenvalues>
+#include "verification/linear_algebra.h"
 
 #include <array>
 #include <cmath>
@@ -77,10 +76,8 @@ std::vector<double> free_cube_frequencies(const double length,
           K(3 * p + i, 3 * q + j) =
               lambda * s[i][j] + mu * s[j][i] + (i == j ? mu * trace : 0.);
     }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      K, Eigen::EigenvaluesOnly);
   std::vector<double> frequencies;
-  for (const double eigenvalue : solver.eigenvalues())
+  for (const double eigenvalue : symmetric_eigenvalues(K))
     frequencies.push_back(std::sqrt(std::max(0., eigenvalue) / density) * 2. /
                           length);
   return frequencies;

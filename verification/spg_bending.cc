@@ -1,9 +1,8 @@
 // Static bending of a nearly incompressible beam of particles.
 #include "sabot/materials/laws.h"
+#include "verification/linear_algebra.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <Eigen/Dense>
 
 namespace sabot
 {
@@ -65,7 +64,7 @@ double deflection(const double nu, const double spacing)
       for (int d = 0; d < 3; ++d)
         K(3 * i + d, 3 * i + d) += 1e6 * young;
   }
-  const Eigen::VectorXd u = K.llt().solve(load);
+  const Eigen::VectorXd u = solve_symmetric(K, load);
   return u.dot(load);
 }
 

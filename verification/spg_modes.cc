@@ -1,10 +1,9 @@
 // Spectra of a free block of particles against Rayleigh-Ritz.
 #include "sabot/base/choice.h"
 #include "verification/free_block.h"
+#include "verification/linear_algebra.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <Eigen/Eigenvalues>
 
 namespace sabot
 {
@@ -94,9 +93,7 @@ Modes modes_of(SpgOptions options, const double nu, const int n,
   const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd A =
       root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      A, Eigen::EigenvaluesOnly);
-  m.omega = solver.eigenvalues().cwiseMax(0.).cwiseSqrt();
+  m.omega = symmetric_eigenvalues(A).cwiseMax(0.).cwiseSqrt();
   m.largest_h_over_c = m.omega[size - 1] * h / c;
   return m;
 }

@@ -1,0 +1,21 @@
+// Decompositions of dense matrices for verification problems.
+#include "verification/linear_algebra.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace sabot
+{
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &K)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K,
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd &K,
+                                const Eigen::VectorXd &load)
+{
+  return K.llt().solve(load);
+}
+} // namespace sabot
