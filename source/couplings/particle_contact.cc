@@ -74,13 +74,7 @@ ParticleContact::Group ParticleContact::make_group(
 
 void ParticleContact::search()
 {
-<<<<<<< HEAD
   traveled = 0.;
-=======
-  traveled = 0.;
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
->>>>>>> main
   const ParticleSearch found(bodies, pairs, skin, communicator);
   allowance = std::max(skin, found.gap());
   // Owners look for what their nodes may touch.
