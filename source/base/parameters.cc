@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace sabot
@@ -184,15 +185,8 @@ long Parameters::get_integer(const std::string &name) const
 
 bool Parameters::is_declared(const std::string &name) const
 {
-  try
-  {
-    prm->get(name);
-    return true;
-  }
-  catch (const dealii::ExceptionBase &)
-  {
-    return false;
-  }
+  const std::vector<std::string> names = entry_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::vector<std::string> Parameters::entry_names() const

@@ -115,7 +115,8 @@ public:
   void enter_subsection(const std::string &name);
   void leave_subsection();
 
-  /** Text of an entry; throws std::logic_error for one not declared. */
+  /** Text of an entry. One that is not declared is a mistake of the program:
+      std::logic_error in a Debug build, where deal.II looks, else empty. */
   std::string get(const std::string &name) const;
   /** Value of an entry declared with boolean(). */
   bool get_bool(const std::string &name) const;
