@@ -5,7 +5,7 @@
 
 namespace sabot
 {
-const std::array<EnergyTerm, 11> energy_terms = {{
+const std::array<EnergyTerm, 12> energy_terms = {{
     {"kinetic", EnergyTerm::Role::part, "1/2 m v^2 of all nodes.",
      &EnergyLedger::kinetic},
     {"internal", EnergyTerm::Role::part,
@@ -38,6 +38,10 @@ const std::array<EnergyTerm, 11> energy_terms = {{
      "Part of internal and stabilization that failed bonds and cracks let go: "
      "neither motion nor any body's elastic energy gets it back.",
      &EnergyLedger::failure},
+    {"rubble friction", EnergyTerm::Role::information,
+     "Part of internal and stabilization that failed metal turned into heat by "
+     "friction between its pieces.",
+     &EnergyLedger::rubble_friction},
     {"tie", EnergyTerm::Role::part,
      "Minus the work of the ties on followers and leaders together: zero but "
      "for round-off.",

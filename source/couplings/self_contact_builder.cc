@@ -38,6 +38,9 @@ public:
                                                "itself");
     options.parse_parameters(prm, path);
     options.contact_distance = get_quantity(prm, "Contact distance");
+    for (const int a : breaking)
+      context.bodies[a]->set_internal_friction(
+          options.friction->internal_friction());
     // Debris of bodies that meet in a contact meets there.
     std::vector<std::pair<int, int>> pairs;
     for (const auto &pair : pairs_of_members(breaking, true))

@@ -241,6 +241,10 @@ public:
     return std::vector<double>(some_nodes.size(), never_yields);
   }
 
+  /** Pieces of this body that slide on each other do so with this coefficient
+      of friction, as self-contact has it. Before distribute(). */
+  virtual void set_internal_friction(const double /*coefficient*/) {}
+
   // What only some bodies are: null for the others.
   virtual const FaceView *faces() const { return nullptr; }
   virtual const ParticleView *particles() const { return nullptr; }

@@ -102,7 +102,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   fields.allocate(volume, law.stiffens());
   points.allocate(n, n);
   approximation.allocate(n);
-  failure.allocate(n);
+  failure.allocate(n, *residual_strength);
   stable.allocate(n);
   stabilization->allocate(parts);
   renumber(rows);
@@ -110,6 +110,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   kernel.start(fields, node_exchange);
   fields.kernel_reference_position = nodal_state.position;
   update_functions();
+  failure.judge(bonds, approximation.lost_direction, *residual_strength);
   if (options.stores_gradients())
     approximation.set_convex_masses(nodal_state, bonds, node_exchange);
   stable.estimate(parts, *stabilization);
@@ -243,7 +244,8 @@ void SpgBody::update_kernel(const unsigned int step)
   for (std::size_t i = 0; i < n; ++i)
     held[i] = stabilization->held_energy(parts, i);
   const std::vector<std::uint32_t> failed_before = failure.n_failed;
-  const std::vector<char> lost_before = approximation.lost_direction;
+  const std::vector<char> lost_before = approximation.lost_direction,
+                          failed_already = failure.is_failed;
   if (failure.remove(nodal_state, bonds))
     stabilization->carry_bonds(bonds);
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
@@ -256,10 +258,11 @@ void SpgBody::update_kernel(const unsigned int step)
   fields.kernel_reference_position = nodal_state.position;
   update_functions();
   stabilization->end_kernel_update(parts, lost_before);
+  failure.judge(bonds, approximation.lost_direction, *residual_strength);
   for (std::size_t i = 0; i < n; ++i)
   {
     const bool just_lost = approximation.lost_direction[i] && !lost_before[i];
-    if (just_lost)
+    if (failure.is_failed[i] && !failed_already[i])
       release_stress(parts, i);
     if (just_lost || failure.n_failed[i] != failed_before[i])
       failure.loss[i] += held[i] - stabilization->held_energy(parts, i);

@@ -19,6 +19,8 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
     ledger.plastic_work.add(points.plastic_work[i]);
     ledger.failure.add(failure.loss[i]);
   }
+  for (const double work : failure.friction_work)
+    ledger.rubble_friction.add(work);
 }
 
 BodyMeasures SpgBody::measure() const

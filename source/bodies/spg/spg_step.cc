@@ -62,12 +62,17 @@ void update_stress(const ParticleRange &range, SpgParts &body, const double dt)
     step.stiffening = &body.fields.stiffening[range.begin];
 
   const MaterialBatch batch = points.rotate(step);
-  const char *const lost = &body.approximation.lost_direction[range.begin];
-  if (std::none_of(lost, lost + range.size(), [](const char l) { return l; }))
+  BondFailure &failure = body.failure;
+  const char *const failed = &failure.is_failed[range.begin];
+  if (std::none_of(failed, failed + range.size(),
+                   [](const char f) { return f; }))
     law.update(batch);
   else
     body.residual_strength.update(
-        law, batch, {lost, work.half_volume, &body.failure.loss[range.begin]});
+        law, batch,
+        {failed, work.half_volume, &failure.loss[range.begin],
+         failure.friction_work.empty() ? nullptr
+                                       : &failure.friction_work[range.begin]});
   points.finish(step);
 }
 } // namespace sabot

@@ -114,6 +114,11 @@ public:
       searched the list itself is state. Collective. */
   void visit_state(StateVisitor &visitor) override;
 
+  void set_internal_friction(const double coefficient) override
+  {
+    residual_strength->set_internal_friction(coefficient);
+  }
+
   /** All owned particles as nodes, no faces; see ParticleSurface. */
   ContactSurface contact_surface() const override;
   const ParticleView *particles() const override { return &views; }
@@ -164,6 +169,8 @@ public:
       update. */
   std::size_t n_fallbacks() const { return approximation.n_fallbacks(); }
   std::size_t n_kernel_updates() const { return n_updates; }
+  /** Whether it bears only what the rule for failed metal leaves. */
+  bool has_failed(const std::size_t i) const { return failure.is_failed[i]; }
   bool is_weak(const std::size_t i) const
   {
     return approximation.lost_direction[i];

@@ -49,6 +49,10 @@ public:
       @param friction: as long as the arrays of @p contacts. */
   virtual void find_friction(const SlidingContacts &contacts,
                              std::vector<double> &friction) const = 0;
+  /** Coefficient of the friction between the pieces of metal that has failed,
+      tan of their angle of internal friction, without unit: what the law makes
+      of pressure alone, at no speed. */
+  virtual double internal_friction() const;
 };
 } // namespace sabot
 

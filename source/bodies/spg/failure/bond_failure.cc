@@ -4,6 +4,7 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/bodies/spg/spg_options.h"
 
 namespace sabot
@@ -17,10 +18,15 @@ BondFailure::BondFailure(const SpgOptions &options)
 {
 }
 
-void BondFailure::allocate(const std::size_t n_owned)
+void BondFailure::allocate(const std::size_t n_owned,
+                           const ResidualStrength &rule)
 {
   n_failed.assign(n_owned, 0);
   loss.assign(n_owned, 0.);
+  is_failed.assign(n_owned, 0);
+  exceeded.assign(n_owned, 0);
+  if (rule.has_friction())
+    friction_work.assign(n_owned, 0.);
   if (remembers_pairs)
     failed_pairs.resize(n_owned);
 }
@@ -67,7 +73,21 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds)
         if (remembers_pairs)
           failed_pairs[i].push_back(nodes.global_id[bonds.neighbor[b]]);
       }
+  const double critical = criterion->critical_value();
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    if (n_failed[i] > 0 && measure[i] > critical)
+      exceeded[i] = 1;
   return bonds.remove(is_marked);
+}
+
+void BondFailure::judge(const BondList &bonds,
+                        const std::vector<char> &lost_direction,
+                        const ResidualStrength &rule)
+{
+  for (std::size_t i = 0; i < is_failed.size(); ++i)
+    is_failed[i] =
+        rule.has_failed({n_failed[i], bonds.n_bonds(i), bool(lost_direction[i]),
+                         bool(exceeded[i])});
 }
 
 double BondFailure::failed_fraction(const BondList &bonds,
@@ -102,5 +122,9 @@ void BondFailure::visit_state(StateVisitor &visitor)
     }
   }
   visitor.visit_array("failure loss", loss);
+  visitor.visit_array("has failed", is_failed);
+  visitor.visit_array("exceeded failure limit", exceeded);
+  if (!friction_work.empty())
+    visitor.visit_array("rubble friction", friction_work);
 }
 } // namespace sabot

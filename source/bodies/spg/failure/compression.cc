@@ -1,6 +1,7 @@
 // Failed metal carries compression: no tension across the cracks beside it,
 // else the law.
 #include "sabot/base/registry.h"
+#include "sabot/bodies/spg/failure/repeated_update.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/principal.h"
@@ -21,6 +22,10 @@ namespace
 class Compression : public ResidualStrength
 {
 public:
+  bool has_failed(const ParticleDamage &damage) const override
+  {
+    return damage.lost_direction;
+  }
   void update(const Material &law, const MaterialBatch &points,
               const FailedPoints &failed) override;
   void release(double stress[n_symmetric]) const override
@@ -29,33 +34,16 @@ public:
   }
 
 private:
-  /** Keep stress and states of the batch, or give them back. */
-  void save(const MaterialBatch &points);
-  void restore(const MaterialBatch &points) const;
   /** Set uncracked_strain and is_cracked; false where no crack opens. */
   bool open_cracks(const double shear_modulus, const MaterialBatch &points,
                    const char *is_failed);
   /** The stress across cracks, and the energy that opening them took. */
   void close_tension(const MaterialBatch &points, const FailedPoints &failed);
 
-  double old_stress[n_symmetric][max_batch_points];
+  RepeatedUpdate updates;
   double uncracked_strain[n_symmetric][max_batch_points];
   bool is_cracked[max_batch_points];
-  std::vector<double> old_states; // [row][max_batch_points]
-  std::size_t n_rows = 0;
 };
-
-/** Add @p part to the normal components. */
-void add_mean(double s[6], const double part)
-{
-  for (int c = 0; c < 3; ++c)
-    s[c] += part;
-}
-
-double mean(const double s[6])
-{
-  return (s[0] + s[1] + s[2]) / 3.;
-}
 
 void Compression::update(const Material &law, const MaterialBatch &points,
                          const FailedPoints &failed)
@@ -76,40 +64,12 @@ void Compression::update(const Material &law, const MaterialBatch &points,
       }
     return;
   }
-  if (old_states.empty())
-  {
-    n_rows = 0;
-    for (const StateVariable &variable : law.state_variables())
-      n_rows += variable.is_tensor ? n_symmetric : 1;
-    old_states.resize(n_rows * max_batch_points);
-  }
-  save(points);
-  law.update(points);
+  updates.first(law, points);
   if (!open_cracks(law.shear_modulus(), points, failed.is_failed))
     return;
   // Once more, without what opened the cracks; equal for the other points.
-  restore(points);
-  MaterialBatch rest = points;
-  for (int c = 0; c < 6; ++c)
-    rest.strain_increment[c] = uncracked_strain[c];
-  law.update(rest);
+  updates.again(law, points, uncracked_strain, points.extra_square);
   close_tension(points, failed);
-}
-
-void Compression::save(const MaterialBatch &points)
-{
-  for (int c = 0; c < 6; ++c)
-    std::copy_n(points.stress[c], points.n, old_stress[c]);
-  for (std::size_t s = 0; s < n_rows; ++s)
-    std::copy_n(points.states[s], points.n, &old_states[s * max_batch_points]);
-}
-
-void Compression::restore(const MaterialBatch &points) const
-{
-  for (int c = 0; c < 6; ++c)
-    std::copy_n(old_stress[c], points.n, points.stress[c]);
-  for (std::size_t s = 0; s < n_rows; ++s)
-    std::copy_n(&old_states[s * max_batch_points], points.n, points.states[s]);
 }
 
 void Compression::close_tension(const MaterialBatch &points,
@@ -125,7 +85,7 @@ void Compression::close_tension(const MaterialBatch &points,
       s[c] = points.stress[c][k];
     const double excess = largest_principal(s);
     if (excess > 0.)
-      add_mean(s, -excess);
+      add_mean_part(s, -excess);
     double loss = 0.;
     for (int c = 0; c < 6; ++c)
     {
@@ -149,14 +109,15 @@ bool Compression::open_cracks(const double shear_modulus,
     for (int c = 0; c < 6; ++c)
     {
       uncracked_strain[c][k] = strain[c] = points.strain_increment[c][k];
-      trial[c] = old_stress[c][k];
+      trial[c] = updates.old_stress[c][k];
     }
     is_cracked[k] = false;
     if (!is_failed[k])
       continue;
     const double new_mean =
         (points.stress[0][k] + points.stress[1][k] + points.stress[2][k]) / 3.;
-    add_mean(trial, new_mean - mean(trial) - two_G * mean(strain));
+    add_mean_part(trial,
+                  new_mean - mean_part(trial) - two_G * mean_part(strain));
     for (int c = 0; c < 6; ++c)
       trial[c] += two_G * strain[c];
     double held[6];
@@ -165,7 +126,7 @@ bool Compression::open_cracks(const double shear_modulus,
     if (std::equal(held, held + 6, trial))
       continue;
     is_cracked[k] = any = true;
-    const double change = mean(held) - mean(trial);
+    const double change = mean_part(held) - mean_part(trial);
     for (int c = 0; c < 6; ++c)
       uncracked_strain[c][k] +=
           (held[c] - trial[c] - (c < 3 ? change : 0.)) / two_G;

@@ -11,6 +11,10 @@ namespace
 class Everything : public ResidualStrength
 {
 public:
+  bool has_failed(const ParticleDamage &damage) const override
+  {
+    return damage.lost_direction;
+  }
   void update(const Material &law, const MaterialBatch &points,
               const FailedPoints &) override
   {

@@ -14,6 +14,7 @@ namespace sabot
 class BondList;
 class GhostExchange;
 class MaterialPoints;
+class ResidualStrength;
 struct NodalState;
 struct ParticleFields;
 struct SpgOptions;
@@ -34,7 +35,8 @@ public:
       the policy that searches all pairs. */
   explicit BondFailure(const SpgOptions &options);
 
-  void allocate(const std::size_t n_owned);
+  /** For @p n_owned particles under @p rule. */
+  void allocate(const std::size_t n_owned, const ResidualStrength &rule);
   /** Every few steps: a regular kernel update looks as well. Failure is a
       property of the material, not of the search for neighbors: it has its
       own interval, shorter than that of kernel updates. */
@@ -59,6 +61,11 @@ public:
       n_failed/(n_failed + bonds left); 0 for a particle that never had any. */
   double failed_fraction(const BondList &bonds, const std::size_t i) const;
 
+  /** Ask @p rule which particles have failed, into is_failed. @p
+      lost_direction [n_owned] as of the last kernel update. Local. */
+  void judge(const BondList &bonds, const std::vector<char> &lost_direction,
+             const ResidualStrength &rule);
+
   /** As a neighbor search needs them, empty where there is none: the global
       numbers of those to which an owned particle's bonds failed. */
   std::vector<std::vector<GlobalIndex>> failed_pairs;
@@ -66,6 +73,13 @@ public:
   /** What failed bonds and cracks let go per owned particle, part of internal
       and stabilization energy [J]. */
   std::vector<double> loss;
+
+  /** Owned particles that bear only what the rule for failed metal leaves. */
+  std::vector<char> is_failed;
+  /** Heat of the friction between pieces of failed metal per owned particle,
+      part of internal and stabilization energy [J]; empty under rules that
+      have none. */
+  std::vector<double> friction_work;
 
   void visit_state(StateVisitor &visitor);
 
@@ -76,6 +90,7 @@ private:
   const bool remembers_pairs;
   std::vector<double> measure; // owned and ghosts
   std::vector<char> is_marked; // per bond, by the last find()
+  std::vector<char> exceeded;  // see ParticleDamage::exceeded_limit
 };
 } // namespace sabot
 

@@ -3,6 +3,7 @@
 
 #include "sabot/materials/material.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,19 +12,35 @@ namespace sabot
 {
 class Parameters;
 
+/** What is known of one particle's damage after a kernel update. */
+struct ParticleDamage
+{
+  std::uint32_t n_failed = 0; // bonds that failed so far
+  std::size_t n_bonds = 0;    // that are left
+  /** Its remaining bonds no longer span space, or have not closed yet
+      (Approximation::lost_direction). */
+  bool lost_direction = false;
+  /** A bond of it has failed, and its own measure of failure has exceeded the
+      critical value since: the metal here has failed, not only beside it.
+      Stays. */
+  bool exceeded_limit = false;
+};
+
 /** Which points of a batch have failed, and where their losses go: [n] each.
-    loss is added to: 2 half_volume times a work per volume [J/m^3]. */
+    Both are added to: 2 half_volume times a work per volume [J/m^3]. */
 struct FailedPoints
 {
   const char *is_failed;
   const double *half_volume; // half of the mean volume of the step [m^3]
   double *loss;              // energy let go, part of the internal one [J]
+  /** Heat of the friction between pieces, part of internal and stabilization
+      energy [J]; null for rules that have none. */
+  double *friction_work;
 };
 
 /**
- * What failed metal carries: the stress of particles whose remaining bonds no
- * longer span space (Approximation::lost_direction). The law and the work of
- * the step are outside; a rule sees one batch with at least one failed point
+ * What failed metal carries, and which metal has failed. The law and the work
+ * of the step are outside; a rule sees one batch with at least one failed point
  * and must leave the others exactly as the law does. It may call the law more
  * than once on copies, cut or scale the stress afterwards, and count what it
  * lets go: the work of sigma along the part of the strain increment that the
@@ -39,10 +56,20 @@ public:
 
   virtual ~ResidualStrength() = default;
 
+  /** Whether a particle has failed; asked after each kernel update. A function
+      of @p damage alone, so that ranks and resumed runs agree. */
+  virtual bool has_failed(const ParticleDamage &damage) const = 0;
+  /** Friction coefficient of the body's pieces on each other, >= 0, without
+      unit; before the first step. */
+  virtual void set_internal_friction(const double /*coefficient*/) {}
+  /** Whether it turns work into heat of friction (FailedPoints). */
+  virtual bool has_friction() const { return false; }
+
   /** Stress and state at the end of the step, in place of law.update().
       Stress is without bulk viscosity, in the frame of the end of the step,
       to which MaterialPoints::rotate() has turned it. Must set return factor
-      and plastic work as a law does. n <= max_batch_points. Local. */
+      and plastic work as a law does; the return factor scales the stress of
+      the stabilization too. n <= max_batch_points. Local. */
   virtual void update(const Material &law, const MaterialBatch &points,
                       const FailedPoints &failed) = 0;
   /** Take away what a particle cannot bear that failed between two steps. @p

@@ -1,0 +1,54 @@
+#ifndef sabot_bodies_spg_failure_repeated_update_h
+#define sabot_bodies_spg_failure_repeated_update_h
+
+#include "sabot/materials/material.h"
+
+#include <vector>
+
+namespace sabot
+{
+/**
+ * A law's update of a batch that can be taken back and made again with another
+ * strain increment: rules for failed metal learn the pressure of the step from
+ * the first update, and what of the strain the metal itself bears from the
+ * pressure. Scratch space of a rule; local.
+ */
+class RepeatedUpdate
+{
+public:
+  /** law.update(@p points), after a copy of their stress and state. */
+  void first(const Material &law, const MaterialBatch &points);
+  /** Stress and state as before first(), then law.update() with the strain
+      increments @p strain [n_symmetric] (tensor components) and the squares
+      @p extra_square [n] in place of the batch's. */
+  void again(const Material &law, const MaterialBatch &points,
+             const double (*strain)[max_batch_points],
+             const double *extra_square);
+
+  /** Cauchy stress at the start of the step, in the frame of its end [Pa]. */
+  double old_stress[n_symmetric][max_batch_points];
+  /** State variable @p row of point @p k at the start of the step. */
+  double old_state(const std::size_t row, const std::size_t k) const
+  {
+    return old_states[row * max_batch_points + k];
+  }
+
+private:
+  std::vector<double> old_states; // [row][max_batch_points]
+};
+
+/** Mean of the normal components of a stress or strain. */
+inline double mean_part(const double s[n_symmetric])
+{
+  return (s[0] + s[1] + s[2]) / 3.;
+}
+
+/** Add @p part to the normal components. */
+inline void add_mean_part(double s[n_symmetric], const double part)
+{
+  for (int c = 0; c < 3; ++c)
+    s[c] += part;
+}
+} // namespace sabot
+
+#endif

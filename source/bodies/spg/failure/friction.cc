@@ -1,0 +1,242 @@
+// Failed metal is a heap of pieces: pressure and the friction between them.
+#include "sabot/base/registry.h"
+#include "sabot/bodies/spg/failure/repeated_update.h"
+#include "sabot/bodies/spg/failure/residual_strength.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace sabot
+{
+namespace
+{
+/** What takes the cohesion of a particle's metal away. */
+enum class Loss
+{
+  own_failure,
+  any_failed_bond,
+  most_bonds,
+  lost_direction
+};
+constexpr std::array<const char *, 4> losses = {
+    {"own failure", "any failed bond", "most bonds", "lost direction"}};
+
+/** Above, pieces in triaxial compression, -p + 2/3 q across, would pull. */
+constexpr double largest_slope = 1.5;
+
+/**
+ * Pieces of metal bear a pressure p > 0 as sound metal does, no tension, and
+ * under it the friction mu of their surfaces,
+ *
+ *   q = sqrt(3/2 s : s + stabilization) <= min(sigma_y, M p),  M = sqrt(3) mu,
+ *
+ * which is the shear stress mu p where the three normal stresses are equal, as
+ * they become in a layer that is sheared on. Sliding keeps the volume. What of
+ * the strain is sliding, (1 - M p/q_trial) s_trial/(2 G), the law does not see:
+ * it does not harden the metal. Its work q d_eps is heat.
+ */
+class Friction : public ResidualStrength
+{
+public:
+  explicit Friction(const Loss loss) : loss(loss) {}
+
+  bool has_failed(const ParticleDamage &damage) const override;
+  void set_internal_friction(const double coefficient) override
+  {
+    slope = std::min(largest_slope, std::sqrt(3.) * coefficient);
+  }
+  bool has_friction() const override { return true; }
+  void update(const Material &law, const MaterialBatch &points,
+              const FailedPoints &failed) override;
+  void release(double stress[n_symmetric]) const override;
+
+private:
+  /** Share of the trial deviator that pieces bear, and what is left of the
+      strain; false where all bear all. */
+  bool slide(const double shear_modulus, const MaterialBatch &points,
+             const char *is_failed);
+  /** Stress and return factor of what slid, and its heat. */
+  void finish(const Material &law, const MaterialBatch &points,
+              const FailedPoints &failed);
+  /** Where the stress follows F instead of increments: it is cut. */
+  void scale(const MaterialBatch &points, const char *is_failed) const;
+
+  const Loss loss;
+  double slope = 0.; // M
+  RepeatedUpdate updates;
+  double rest[n_symmetric][max_batch_points]; // strain of the pieces
+  double extra[max_batch_points];             // their extra square [Pa^2]
+  double share[max_batch_points];             // of the trial deviator borne
+  double sliding[max_batch_points];           // effective strain
+};
+
+bool Friction::has_failed(const ParticleDamage &damage) const
+{
+  const bool has_cracks = damage.n_failed > 0;
+  return damage.lost_direction ||
+         (loss == Loss::own_failure && damage.exceeded_limit) ||
+         (loss == Loss::any_failed_bond && has_cracks) ||
+         (loss == Loss::most_bonds && damage.n_failed > damage.n_bonds);
+}
+
+/** 3/2 s : s of the deviator of a stress. */
+double mises_square(const double s[n_symmetric])
+{
+  const double m = mean_part(s);
+  double square = 0.;
+  for (int c = 0; c < 3; ++c)
+    square += (s[c] - m) * (s[c] - m) + 2. * s[c + 3] * s[c + 3];
+  return 1.5 * square;
+}
+
+void Friction::update(const Material &law, const MaterialBatch &points,
+                      const FailedPoints &failed)
+{
+  updates.first(law, points); // for the pressure
+  if (law.needs_deformation_gradient())
+    return scale(points, failed.is_failed);
+  if (!slide(law.shear_modulus(), points, failed.is_failed))
+    return;
+  updates.again(law, points, rest, extra);
+  finish(law, points, failed);
+}
+
+bool Friction::slide(const double shear_modulus, const MaterialBatch &points,
+                     const char *const is_failed)
+{
+  const double two_G = 2. * shear_modulus;
+  bool any = false;
+  for (std::size_t k = 0; k < points.n; ++k)
+  {
+    share[k] = 1.;
+    sliding[k] = 0.;
+    extra[k] = points.extra_square[k];
+    double strain[n_symmetric], trial[n_symmetric];
+    for (int c = 0; c < n_symmetric; ++c)
+      strain[c] = rest[c][k] = points.strain_increment[c][k];
+    if (!is_failed[k])
+      continue;
+    for (int c = 0; c < n_symmetric; ++c)
+      trial[c] = updates.old_stress[c][k] + two_G * strain[c];
+    add_mean_part(trial, -mean_part(trial));
+    const double pressure =
+        -(points.stress[0][k] + points.stress[1][k] + points.stress[2][k]) / 3.;
+    const double q = std::sqrt(mises_square(trial) + extra[k]),
+                 bearable = slope * std::max(0., pressure);
+    if (q <= bearable && pressure >= 0.)
+      continue;
+    any = true;
+    share[k] = q > 0. ? std::min(1., bearable / q) : 0.;
+    sliding[k] = (1. - share[k]) * q / (1.5 * two_G);
+    extra[k] *= share[k] * share[k];
+    for (int c = 0; c < n_symmetric; ++c)
+      rest[c][k] -= (1. - share[k]) * trial[c] / two_G;
+  }
+  return any;
+}
+
+void Friction::finish(const Material &law, const MaterialBatch &points,
+                      const FailedPoints &failed)
+{
+  std::optional<std::size_t> temperature; // its row
+  std::size_t row = 0;
+  for (const StateVariable &variable : law.state_variables())
+  {
+    if (variable.name == "temperature")
+      temperature = row;
+    row += variable.is_tensor ? n_symmetric : 1;
+  }
+  for (std::size_t k = 0; k < points.n; ++k)
+  {
+    if (share[k] == 1. && sliding[k] == 0.)
+      continue;
+    double s[n_symmetric];
+    for (int c = 0; c < n_symmetric; ++c)
+      s[c] = points.stress[c][k];
+    const double q =
+        std::sqrt(mises_square(s) +
+                  extra[k] * points.return_factor[k] * points.return_factor[k]);
+    points.return_factor[k] *= share[k];
+    const double mean = mean_part(s);
+    if (mean > 0.)
+    {
+      // Pieces part: nothing is left of the tension.
+      failed.loss[k] +=
+          2. * failed.half_volume[k] * mean *
+          (points.strain_increment[0][k] + points.strain_increment[1][k] +
+           points.strain_increment[2][k]);
+      for (int c = 0; c < n_symmetric; ++c)
+        points.stress[c][k] = 0.;
+    }
+    const double heat = q * sliding[k]; // per current volume
+    failed.friction_work[k] += 2. * failed.half_volume[k] * heat;
+    if (temperature && law.specific_heat() > 0.)
+      points.states[*temperature][k] +=
+          heat * points.jacobian[k] / (law.density() * law.specific_heat());
+  }
+}
+
+void Friction::scale(const MaterialBatch &points,
+                     const char *const is_failed) const
+{
+  for (std::size_t k = 0; k < points.n; ++k)
+  {
+    if (!is_failed[k])
+      continue;
+    double s[n_symmetric];
+    for (int c = 0; c < n_symmetric; ++c)
+      s[c] = points.stress[c][k];
+    const double mean = mean_part(s), theta = points.return_factor[k],
+                 q = std::sqrt(mises_square(s) +
+                               theta * theta * points.extra_square[k]),
+                 bearable = slope * std::max(0., -mean),
+                 part = q > bearable ? bearable / q : 1.;
+    points.return_factor[k] *= part;
+    for (int c = 0; c < n_symmetric; ++c)
+      points.stress[c][k] =
+          part * s[c] + (c < 3 ? std::min(0., mean) - part * mean : 0.);
+  }
+}
+
+void Friction::release(double stress[n_symmetric]) const
+{
+  const double pressure = -mean_part(stress);
+  if (pressure <= 0.)
+  {
+    std::fill_n(stress, n_symmetric, 0.);
+    return;
+  }
+  const double q = std::sqrt(mises_square(stress));
+  if (q <= slope * pressure)
+    return;
+  const double part = slope * pressure / q;
+  for (int c = 0; c < n_symmetric; ++c)
+    stress[c] = part * stress[c] + (c < 3 ? (part - 1.) * pressure : 0.);
+}
+
+const Registry<ResidualStrength>::Add registered(
+    {"friction",
+     "pressure, and under it the friction between pieces, by the coefficient "
+     "of the body's self-contact.",
+     [](Parameters &prm)
+     {
+       prm.declare_entry(
+           "Cohesion is lost by", losses[0],
+           one_of("own failure|any failed bond|most bonds|lost direction"),
+           "Whose metal has failed: of particles whose own measure of failure "
+           "exceeds the critical value and that lost a bond; of all with a "
+           "failed bond; of those that lost more bonds than they have left; or "
+           "only where the remaining bonds no longer span space, which counts "
+           "in all cases.");
+     },
+     [](const Parameters &prm, const std::string &)
+     {
+       const auto found = std::find(losses.begin(), losses.end(),
+                                    prm.get("Cohesion is lost by"));
+       const auto loss = static_cast<Loss>(found - losses.begin());
+       return [loss] { return std::make_unique<Friction>(loss); };
+     }});
+} // namespace
+} // namespace sabot

@@ -1,0 +1,38 @@
+// A law's update of a batch, taken back and made again.
+#include "sabot/bodies/spg/failure/repeated_update.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+void RepeatedUpdate::first(const Material &law, const MaterialBatch &points)
+{
+  if (old_states.empty())
+  {
+    std::size_t n_rows = 0;
+    for (const StateVariable &variable : law.state_variables())
+      n_rows += variable.is_tensor ? n_symmetric : 1;
+    old_states.resize(n_rows * max_batch_points);
+  }
+  for (int c = 0; c < n_symmetric; ++c)
+    std::copy_n(points.stress[c], points.n, old_stress[c]);
+  for (std::size_t s = 0; s * max_batch_points < old_states.size(); ++s)
+    std::copy_n(points.states[s], points.n, &old_states[s * max_batch_points]);
+  law.update(points);
+}
+
+void RepeatedUpdate::again(const Material &law, const MaterialBatch &points,
+                           const double (*const strain)[max_batch_points],
+                           const double *const extra_square)
+{
+  for (int c = 0; c < n_symmetric; ++c)
+    std::copy_n(old_stress[c], points.n, points.stress[c]);
+  for (std::size_t s = 0; s * max_batch_points < old_states.size(); ++s)
+    std::copy_n(&old_states[s * max_batch_points], points.n, points.states[s]);
+  MaterialBatch rest = points;
+  for (int c = 0; c < n_symmetric; ++c)
+    rest.strain_increment[c] = strain[c];
+  rest.extra_square = extra_square;
+  law.update(rest);
+}
+} // namespace sabot
