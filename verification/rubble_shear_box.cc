@@ -16,7 +16,7 @@ struct ShearBox
   double spacing = 1e-3;
   double layer = 2.; // thickness over spacing
   double angle = 0.; // of the lattice [degrees]
-  std::string rule = "friction", loss = "own failure";
+  std::string rule = "friction";
 };
 
 struct Sheared
@@ -26,7 +26,7 @@ struct Sheared
   double scatter;
   double momentum;
   double residual; // energy over the work of the drive
-  double height; // change over the layer
+  double height;   // change over the layer
   double isolated, failed;
 };
 
@@ -38,11 +38,7 @@ Sheared shear(const ShearBox &box)
                grip = half_height - 1.6 * h;
   SpgOptions options;
   options.set_critical_plastic_strain(0.4);
-  options.residual_strength =
-      box.rule == "friction"
-          ? choose<ResidualStrength>("friction",
-                                     {{"Cohesion is lost by", box.loss}})
-          : choose<ResidualStrength>(box.rule);
+  options.residual_strength = choose<ResidualStrength>(box.rule);
   auto made = std::make_unique<DrivenSpgBody>(
       "ring",
       lattice_where(h, vec(1. / std::sqrt(2.), 1. / std::sqrt(2.), 0.),
@@ -83,14 +79,14 @@ Sheared shear(const ShearBox &box)
                         (R_out * R_out - R_in * R_in);
   (void)inertia;
   // Piston of the grip's own mass times some; pressure and speed rise slowly.
-  const double piston = 20. * mass, speed = 40.,
-               rise = 6e-6, start = 10e-6;
+  const double piston = 20. * mass, speed = 40., rise = 6e-6, start = 10e-6;
   double piston_speed = 0., dt = 0., work = 0.;
   double torque = 0., normal = 0.;
   const double damping =
       2. * std::sqrt(piston * 70e9 * area / (2. * half_height)) * 0.3;
-  const auto angular_speed = [&](const double t)
-  { return t < start ? 0. : speed / radius * std::min(1., (t - start) / rise); };
+  const auto angular_speed = [&](const double t) {
+    return t < start ? 0. : speed / radius * std::min(1., (t - start) / rise);
+  };
   body.drive = [&](NodalState &nodes, const double time)
   {
     const double omega = angular_speed(time);
@@ -104,8 +100,9 @@ Sheared shear(const ShearBox &box)
         nodes.velocity[i] =
             nodes.velocity[i] - dot(nodes.velocity[i], radial) * radial;
       else
-        nodes.velocity[i] =
-            part[i] > 0 ? r * omega * around + vec(0., 0., piston_speed) : Vec{};
+        nodes.velocity[i] = part[i] > 0
+                                ? r * omega * around + vec(0., 0., piston_speed)
+                                : Vec{};
     }
   };
   world.stepper.initialize();
@@ -114,7 +111,8 @@ Sheared shear(const ShearBox &box)
   const double slip = 4. * h + 1.0e-3, end = start + 0.5 * rise + slip / speed;
   double top = 0., n_top = 0., top_start = 0.;
   const bool trace = std::getenv("TRACE");
-  double next = 0., tsum = 0., nsum = 0.; int ns = 0;
+  double next = 0., tsum = 0., nsum = 0.;
+  int ns = 0;
   while (world.stepper.time() < end)
   {
     torque = normal = 0.;
@@ -135,20 +133,26 @@ Sheared shear(const ShearBox &box)
     dt = world.advance(0.7);
     if (t < start)
       top_start = top / n_top;
-    tsum += -torque / radius; nsum += normal; ++ns;
+    tsum += -torque / radius;
+    nsum += normal;
+    ++ns;
     if (t > start + rise)
     {
-      ratios.push_back(-torque / radius / area / box.pressure);
+      ratios.push_back(-torque / radius /
+                       std::max(0.05 * area * box.pressure, normal));
       work += -torque * angular_speed(t) * dt;
     }
     if (t > next)
     {
       if (trace)
-        std::printf("t %.2f slip/h %.2f T/N %.3f N/(pA) %.3f up %.4f iso %g broken %g\n", t * 1e6,
-                    t > start ? speed * (t - start) / h : 0., tsum / nsum,
-                    nsum / ns / (box.pressure * area), (top / n_top - top_start) / h,0.,
+        std::printf("t %.2f slip/h %.2f T/N %.3f N/(pA) %.3f up %.4f iso %g "
+                    "broken %g\n",
+                    t * 1e6, t > start ? speed * (t - start) / h : 0.,
+                    tsum / nsum, nsum / ns / (box.pressure * area),
+                    (top / n_top - top_start) / h, 0.,
                     body.measure().bonds_broken_fraction);
-      tsum = nsum = 0.; ns = 0;
+      tsum = nsum = 0.;
+      ns = 0;
       next += 2e-6;
     }
   }
@@ -164,7 +168,8 @@ Sheared shear(const ShearBox &box)
     sum += ratios[k], square += ratios[k] * ratios[k];
   const double count = ratios.size() - half;
   result.traction = sum / count;
-  result.scatter = std::sqrt(std::max(0., square / count - sum * sum / count / count));
+  result.scatter =
+      std::sqrt(std::max(0., square / count - sum * sum / count / count));
   result.height = (top / n_top - top_start) / (box.layer * h);
   result.failed = failed;
   result.isolated = isolated;
@@ -184,20 +189,22 @@ std::vector<Check> shear_box()
   box.angle = get("ANGLE", 0);
   if (std::getenv("RULE"))
     box.rule = std::getenv("RULE");
-  if (std::getenv("LOSS"))
-    box.loss = std::getenv("LOSS");
   const Sheared s = shear(box);
   checks.push_back({"shear over pressure", box.friction, s.traction,
                     0.1 * box.friction, "1", ""});
-  checks.push_back({"scatter", 0., s.scatter, 0., "1", "", Check::Kind::reported});
-  checks.push_back({"height", 0., s.height, 0., "1", "", Check::Kind::reported});
-  checks.push_back({"failed", 0., s.failed, 0., "1", "", Check::Kind::reported});
-  checks.push_back({"isolated", 0., s.isolated, 0., "1", "", Check::Kind::reported});
+  checks.push_back(
+      {"scatter", 0., s.scatter, 0., "1", "", Check::Kind::reported});
+  checks.push_back(
+      {"height", 0., s.height, 0., "1", "", Check::Kind::reported});
+  checks.push_back(
+      {"failed", 0., s.failed, 0., "1", "", Check::Kind::reported});
+  checks.push_back(
+      {"isolated", 0., s.isolated, 0., "1", "", Check::Kind::reported});
   return checks;
 }
 
-const RegisterProblem
-    a({"rubble-shear-box", "a crumbled layer between sound metal is sheared on",
-       "long", shear_box});
+const RegisterProblem a({"rubble-shear-box",
+                         "a crumbled layer between sound metal is sheared on",
+                         "long", shear_box});
 } // namespace
 } // namespace sabot

@@ -85,8 +85,11 @@ struct VolumePoint
 struct DebrisView
 {
   std::vector<std::size_t> nodes; // owned, ascending
-  double bulk_modulus = 0.;       // [Pa]
-  double spacing = 0.;            // [m]
+  /** Of each of them, whether it is part of crumbled metal that its body keeps
+      a continuum: such pairs bear pressure already. Empty: none is. */
+  std::vector<char> is_continuous;
+  double bulk_modulus = 0.; // [Pa]
+  double spacing = 0.;      // [m]
 };
 
 /** A connected piece of a body whose bonds may fail. By Body::fragments(); a

@@ -59,6 +59,7 @@ private:
   {
     NodeKey first, second;   // first < second
     double distance;         // below which they repel [m]
+    double largest_distance; // that it may be [m]
     double stiffness;        // [N/m]
     double area;             // that a pair stands for, h^2 [m^2]
     double largest_friction; // that the metals bear [N]
@@ -70,8 +71,10 @@ private:
   /** New pairs, which remember the distance at which they were first met.
       Collective. */
   void find_pairs();
+  /** @p reach: largest distance of repulsion over the spacing. */
   Pair make_pair(const NodeKey &a, const NodeKey &b, const double distance,
-                 const DebrisView &of_a, const DebrisView &of_b) const;
+                 const double reach, const DebrisView &of_a,
+                 const DebrisView &of_b) const;
   /** Slots of the nodes of all pairs. Collective. */
   void build_halo();
   /** Scale the stiffness of all that touches a particle below its bound.

@@ -2,6 +2,7 @@
 // couplings.
 #include "sabot/bodies/spg/spg_body.h"
 
+#include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/neighbor_search.h"
 
@@ -149,6 +150,7 @@ void SpgBody::renumber(const BondList::Rows &rows)
   node_exchange.update(nodal_state.inertia.data());
   bonds.connect(rows, ids, ghost_owner, n_global, communicator);
   fields.resize(ids.size());
+  failure.renew_ghosts(node_exchange, ids.size());
   stabilization->carry_bonds(bonds);
   stabilization->renew_ghosts(parts);
 }
@@ -239,6 +241,10 @@ void SpgBody::update_kernel(const unsigned int step)
   const std::size_t n = nodal_state.n_owned;
   stabilization->begin_kernel_update(parts);
   kernel.follow(fields);
+  if (failure.keeps_crumbled())
+    for (std::size_t i = 0; i < n; ++i)
+      if (failure.has_crumbled(i))
+        fields.kernel[i] = kernel.round_kernel();
   node_exchange.update(fields.kernel.data());
   std::vector<double> held(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -246,8 +252,14 @@ void SpgBody::update_kernel(const unsigned int step)
   const std::vector<std::uint32_t> failed_before = failure.n_failed;
   const std::vector<char> lost_before = approximation.lost_direction,
                           failed_already = failure.is_failed;
-  if (failure.remove(nodal_state, bonds))
+  if (failure.remove(nodal_state, bonds, node_exchange))
     stabilization->carry_bonds(bonds);
+  if (failure.renews_crumbled(communicator))
+  {
+    renumber(renew_crumbled_neighbors(nodal_state, bonds, failure, kernel,
+                                      communicator));
+    node_exchange.update(fields.kernel.data());
+  }
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
   {
     renumber(search_neighbors(options, nodal_state, bonds, fields, failure,

@@ -11,7 +11,7 @@ namespace
 {
 constexpr const char *standard_form = "bond residual",
                      *standard_criterion = "effective plastic strain",
-                     *standard_rule = "compression";
+                     *standard_rule = "friction";
 } // namespace
 
 SpgOptions::SpgOptions()
@@ -61,7 +61,9 @@ void declare_failure(Parameters &prm)
                     "fail; at least 1, so that none fails in compression.");
   Registry<ResidualStrength>::declare_choice(
       prm, "Failed metal carries", standard_rule,
-      "Stress of particles whose remaining bonds no longer span space.");
+      "Stress of particles that have failed: whose remaining bonds no longer "
+      "span "
+      "space, or, for friction, whose metal has failed itself.");
   Registry<ResidualStrength>::declare_entries(prm, "");
 }
 } // namespace

@@ -37,7 +37,7 @@ BodyMeasures SpgBody::measure() const
     stabilized.add(stabilization->work()[i]);
     plastic.add(points.plastic_work[i]);
     lost.add(failure.loss[i]);
-    bonds_failed.add(failure.n_failed[i]);
+    bonds_failed.add(failure.n_broken(bonds, i));
     bonds_all.add(bonds.n_bonds(i) + failure.n_failed[i]);
     n_weak.add(approximation.lost_direction[i]);
     n_isolated.add(bonds.n_bonds(i) == 0);
@@ -173,7 +173,8 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 
 void SpgBody::visit_bonds(StateVisitor &visitor)
 {
-  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
+  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian ||
+      failure.keeps_crumbled())
   {
     // The list itself is state.
     const std::size_t n = nodal_state.n_owned;

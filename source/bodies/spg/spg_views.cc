@@ -24,8 +24,11 @@ DebrisView SpgViews::debris() const
 {
   DebrisView view;
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
-    if (body.failure.n_failed[i] > 0)
+    if (body.failure.has_cracks(i))
       view.nodes.push_back(i);
+  if (body.failure.keeps_crumbled())
+    for (const std::size_t i : view.nodes)
+      view.is_continuous.push_back(body.failure.has_crumbled(i));
   view.bulk_modulus = body.points.law().bulk_modulus();
   view.spacing = body.kernel.mean_spacing();
   return view;
@@ -36,7 +39,7 @@ bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j) const
   const BondList &bonds = body.bonds;
   for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     if (body.nodes.global_id[bonds.neighbor[b]] == j)
-      return true;
+      return body.failure.is_cohesive(i, bonds.neighbor[b]);
   return false;
 }
 
@@ -50,7 +53,8 @@ std::size_t SpgViews::n_bonds() const
 
 std::vector<GlobalIndex> SpgViews::labels() const
 {
-  return fragment_labels(body.nodes, body.bonds, body.exchange, communicator);
+  return fragment_labels(body.nodes, body.bonds, body.failure, body.exchange,
+                         communicator);
 }
 
 std::vector<Fragment> SpgViews::connected_pieces() const

@@ -95,7 +95,7 @@ void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form)
   {
     const double omega_square =
         (modulus * rows[i] + springs[i]) / moving_mass(nodes, i);
-    step[i] = (body.failure.n_failed[i] == 0 ? factor : 1.) *
+    step[i] = (!body.failure.has_cracks(i) ? factor : 1.) *
               (omega_square > 0. ? 2. / std::sqrt(omega_square)
                                  : 2. * body.kernel.local_spacing(i) / c);
   }
@@ -106,8 +106,8 @@ double SpgStableStep::least_bound(const SpgParts &body,
 {
   double bound = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < step.size(); ++i)
-    bound = std::min(bound,
-                     step[i] / (body.failure.n_failed[i] == 0 ? factor : 1.));
+    bound =
+        std::min(bound, step[i] / (!body.failure.has_cracks(i) ? factor : 1.));
   MPI_Allreduce(MPI_IN_PLACE, &bound, 1, MPI_DOUBLE, MPI_MIN, communicator);
   return bound;
 }
@@ -149,7 +149,7 @@ void SpgStableStep::calibrate(const SpgParts &body, Stabilization &form,
   if (is_first)
     initial_factor = factor;
   for (std::size_t i = 0; i < step.size(); ++i)
-    if (body.failure.n_failed[i] == 0)
+    if (!body.failure.has_cracks(i))
       step[i] *= factor / before;
 }
 

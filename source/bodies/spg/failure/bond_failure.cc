@@ -7,6 +7,8 @@
 #include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/bodies/spg/spg_options.h"
 
+#include <algorithm>
+
 namespace sabot
 {
 BondFailure::BondFailure(const SpgOptions &options)
@@ -24,7 +26,8 @@ void BondFailure::allocate(const std::size_t n_owned,
   n_failed.assign(n_owned, 0);
   loss.assign(n_owned, 0.);
   is_failed.assign(n_owned, 0);
-  exceeded.assign(n_owned, 0);
+  crumbled.assign(n_owned, 0);
+  joins_crumbled = rule.joins_crumbled();
   if (rule.has_friction())
     friction_work.assign(n_owned, 0.);
   if (remembers_pairs)
@@ -45,6 +48,7 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
   const double critical = criterion->critical_value(),
                square = critical_stretch * critical_stretch;
   is_marked.assign(bonds.capacity(), 0);
+  crumbles.assign(nodes.n_owned, 0);
   bool any = false;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
@@ -55,13 +59,19 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
       const Vec now = nodes.position[j] - nodes.position[i],
                 original =
                     nodes.reference_position[j] - nodes.reference_position[i];
-      if (norm_square(now) > square * norm_square(original))
-        is_marked[b] = any = true;
+      if (norm_square(now) <= square * norm_square(original))
+        continue;
+      const bool here = measure[i] > critical,
+                 stays = joins_crumbled && here && measure[j] > critical;
+      is_marked[b] = !stays;
+      crumbles[i] |= here;
+      any = any || !stays || !crumbled[i];
     }
   return any;
 }
 
-bool BondFailure::remove(const NodalState &nodes, BondList &bonds)
+bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
+                         const GhostExchange &exchange)
 {
   if (!criterion->can_be_met())
     return false;
@@ -73,10 +83,10 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds)
         if (remembers_pairs)
           failed_pairs[i].push_back(nodes.global_id[bonds.neighbor[b]]);
       }
-  const double critical = criterion->critical_value();
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
-    if (n_failed[i] > 0 && measure[i] > critical)
-      exceeded[i] = 1;
+    crumbled[i] |= crumbles[i];
+  if (joins_crumbled)
+    exchange.update(crumbled.data());
   return bonds.remove(is_marked);
 }
 
@@ -87,14 +97,48 @@ void BondFailure::judge(const BondList &bonds,
   for (std::size_t i = 0; i < is_failed.size(); ++i)
     is_failed[i] =
         rule.has_failed({n_failed[i], bonds.n_bonds(i), bool(lost_direction[i]),
-                         bool(exceeded[i])});
+                         bool(crumbled[i])});
+}
+
+bool BondFailure::renews_crumbled(MPI_Comm communicator) const
+{
+  if (!joins_crumbled)
+    return false;
+  int any = std::count(crumbled.begin(), crumbled.end(), 1) > 0;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, communicator);
+  return any != 0;
+}
+
+void BondFailure::renew_ghosts(const GhostExchange &exchange,
+                               const std::size_t n_local)
+{
+  crumbled.resize(n_local);
+  if (joins_crumbled)
+    exchange.update(crumbled.data());
+}
+
+std::size_t BondFailure::n_holding(const BondList &bonds,
+                                   const std::size_t i) const
+{
+  if (!joins_crumbled || !crumbled[i])
+    return bonds.n_bonds(i);
+  std::size_t n = 0;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    n += is_cohesive(i, bonds.neighbor[b]);
+  return n;
+}
+
+std::size_t BondFailure::n_broken(const BondList &bonds,
+                                  const std::size_t i) const
+{
+  return n_failed[i] + bonds.n_bonds(i) - n_holding(bonds, i);
 }
 
 double BondFailure::failed_fraction(const BondList &bonds,
                                     const std::size_t i) const
 {
   const double all = bonds.n_bonds(i) + n_failed[i];
-  return all > 0. ? n_failed[i] / all : 0.;
+  return all > 0. ? n_broken(bonds, i) / all : 0.;
 }
 
 void BondFailure::visit_state(StateVisitor &visitor)
@@ -123,7 +167,7 @@ void BondFailure::visit_state(StateVisitor &visitor)
   }
   visitor.visit_array("failure loss", loss);
   visitor.visit_array("has failed", is_failed);
-  visitor.visit_array("exceeded failure limit", exceeded);
+  visitor.visit_array("crumbled", crumbled);
   if (!friction_work.empty())
     visitor.visit_array("rubble friction", friction_work);
 }

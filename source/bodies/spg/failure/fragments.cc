@@ -4,6 +4,7 @@
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/failure/bond_failure.h"
 
 #include <algorithm>
 #include <map>
@@ -12,6 +13,7 @@ namespace sabot
 {
 std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
                                          const BondList &bonds,
+                                         const BondFailure &failure,
                                          const GhostExchange &exchange,
                                          MPI_Comm communicator)
 {
@@ -28,7 +30,7 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
   };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (bonds.neighbor[b] < n)
+      if (bonds.neighbor[b] < n && failure.is_cohesive(i, bonds.neighbor[b]))
       {
         const std::uint32_t a = root(i), c = root(bonds.neighbor[b]);
         parent[std::max(a, c)] = std::min(a, c);
@@ -43,7 +45,8 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
     exchange.update(label.data());
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-        if (label[bonds.neighbor[b]] < label[root(i)])
+        if (failure.is_cohesive(i, bonds.neighbor[b]) &&
+            label[bonds.neighbor[b]] < label[root(i)])
         {
           label[root(i)] = label[bonds.neighbor[b]];
           changed = 1;

@@ -4,7 +4,6 @@
 #include "sabot/bodies/spg/failure/residual_strength.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -12,19 +11,13 @@ namespace sabot
 {
 namespace
 {
-/** What takes the cohesion of a particle's metal away. */
-enum class Loss
-{
-  own_failure,
-  any_failed_bond,
-  most_bonds,
-  lost_direction
-};
-constexpr std::array<const char *, 4> losses = {
-    {"own failure", "any failed bond", "most bonds", "lost direction"}};
-
 /** Above, pieces in triaxial compression, -p + 2/3 q across, would pull. */
 constexpr double largest_slope = 1.5;
+
+/** M of the stabilization at least, that of mu = 0.1: without any, the
+   particles of frictionless pieces fall into disorder, and their volume with
+   it. */
+const double least_slope = std::sqrt(3.) * 0.1;
 
 /**
  * Pieces of metal bear a pressure p > 0 as sound metal does, no tension, and
@@ -36,17 +29,24 @@ constexpr double largest_slope = 1.5;
  * they become in a layer that is sheared on. Sliding keeps the volume. What of
  * the strain is sliding, (1 - M p/q_trial) s_trial/(2 G), the law does not see:
  * it does not harden the metal. Its work q d_eps is heat.
+ *
+ * Cohesion is gone where the metal itself has failed, not beside it: there a
+ * crack passes sound metal, which bears what it bears along the crack. Crumbled
+ * metal stays a continuum (joins_crumbled()): as loose particles it would lose
+ * a third of its volume, and all pressure meanwhile (rubble-shear-box).
  */
 class Friction : public ResidualStrength
 {
 public:
-  explicit Friction(const Loss loss) : loss(loss) {}
-
-  bool has_failed(const ParticleDamage &damage) const override;
+  bool has_failed(const ParticleDamage &damage) const override
+  {
+    return damage.lost_direction || damage.has_crumbled;
+  }
   void set_internal_friction(const double coefficient) override
   {
     slope = std::min(largest_slope, std::sqrt(3.) * coefficient);
   }
+  bool joins_crumbled() const override { return true; }
   bool has_friction() const override { return true; }
   void update(const Material &law, const MaterialBatch &points,
               const FailedPoints &failed) override;
@@ -63,23 +63,14 @@ private:
   /** Where the stress follows F instead of increments: it is cut. */
   void scale(const MaterialBatch &points, const char *is_failed) const;
 
-  const Loss loss;
   double slope = 0.; // M
   RepeatedUpdate updates;
   double rest[n_symmetric][max_batch_points]; // strain of the pieces
   double extra[max_batch_points];             // their extra square [Pa^2]
   double share[max_batch_points];             // of the trial deviator borne
+  double share_of_extra[max_batch_points];    // the same of the stabilization
   double sliding[max_batch_points];           // effective strain
 };
-
-bool Friction::has_failed(const ParticleDamage &damage) const
-{
-  const bool has_cracks = damage.n_failed > 0;
-  return damage.lost_direction ||
-         (loss == Loss::own_failure && damage.exceeded_limit) ||
-         (loss == Loss::any_failed_bond && has_cracks) ||
-         (loss == Loss::most_bonds && damage.n_failed > damage.n_bonds);
-}
 
 /** 3/2 s : s of the deviator of a stress. */
 double mises_square(const double s[n_symmetric])
@@ -124,13 +115,16 @@ bool Friction::slide(const double shear_modulus, const MaterialBatch &points,
     const double pressure =
         -(points.stress[0][k] + points.stress[1][k] + points.stress[2][k]) / 3.;
     const double q = std::sqrt(mises_square(trial) + extra[k]),
-                 bearable = slope * std::max(0., pressure);
-    if (q <= bearable && pressure >= 0.)
+                 pressing = std::max(0., pressure);
+    if (q <= slope * pressing && pressure >= 0.)
       continue;
     any = true;
-    share[k] = q > 0. ? std::min(1., bearable / q) : 0.;
+    const auto borne = [&](const double M)
+    { return q > 0. ? std::min(1., M * pressing / q) : 0.; };
+    share[k] = borne(slope);
+    share_of_extra[k] = borne(std::max(slope, least_slope));
     sliding[k] = (1. - share[k]) * q / (1.5 * two_G);
-    extra[k] *= share[k] * share[k];
+    extra[k] *= share_of_extra[k] * share_of_extra[k];
     for (int c = 0; c < n_symmetric; ++c)
       rest[c][k] -= (1. - share[k]) * trial[c] / two_G;
   }
@@ -158,18 +152,10 @@ void Friction::finish(const Material &law, const MaterialBatch &points,
     const double q =
         std::sqrt(mises_square(s) +
                   extra[k] * points.return_factor[k] * points.return_factor[k]);
-    points.return_factor[k] *= share[k];
-    const double mean = mean_part(s);
-    if (mean > 0.)
-    {
-      // Pieces part: nothing is left of the tension.
-      failed.loss[k] +=
-          2. * failed.half_volume[k] * mean *
-          (points.strain_increment[0][k] + points.strain_increment[1][k] +
-           points.strain_increment[2][k]);
+    points.return_factor[k] *= share_of_extra[k];
+    if (mean_part(s) > 0.) // pieces part
       for (int c = 0; c < n_symmetric; ++c)
         points.stress[c][k] = 0.;
-    }
     const double heat = q * sliding[k]; // per current volume
     failed.friction_work[k] += 2. * failed.half_volume[k] * heat;
     if (temperature && law.specific_heat() > 0.)
@@ -220,23 +206,8 @@ const Registry<ResidualStrength>::Add registered(
     {"friction",
      "pressure, and under it the friction between pieces, by the coefficient "
      "of the body's self-contact.",
-     [](Parameters &prm)
-     {
-       prm.declare_entry(
-           "Cohesion is lost by", losses[0],
-           one_of("own failure|any failed bond|most bonds|lost direction"),
-           "Whose metal has failed: of particles whose own measure of failure "
-           "exceeds the critical value and that lost a bond; of all with a "
-           "failed bond; of those that lost more bonds than they have left; or "
-           "only where the remaining bonds no longer span space, which counts "
-           "in all cases.");
-     },
-     [](const Parameters &prm, const std::string &)
-     {
-       const auto found = std::find(losses.begin(), losses.end(),
-                                    prm.get("Cohesion is lost by"));
-       const auto loss = static_cast<Loss>(found - losses.begin());
-       return [loss] { return std::make_unique<Friction>(loss); };
+     nullptr, [](const Parameters &, const std::string &) {
+       return [] { return std::make_unique<Friction>(); };
      }});
 } // namespace
 } // namespace sabot

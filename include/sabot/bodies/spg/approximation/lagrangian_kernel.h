@@ -55,6 +55,13 @@ public:
       over that of the start are kept within 0.15 and 6. */
   void follow(ParticleFields &fields) const;
 
+  /** Kernel of metal without memory: a ball of the support of the mean spacing
+      [m]. */
+  Mat round_kernel() const
+  {
+    return normalized_support * mean * Mat::identity();
+  }
+
   /** Edge of the cube as large as the cell of an owned particle's lattice at
       the start [m]; mean_spacing() in a regular lattice. det(S)^(1/3). Does
       not follow the motion. */

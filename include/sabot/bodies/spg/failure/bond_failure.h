@@ -5,6 +5,8 @@
 #include "sabot/base/types.h"
 #include "sabot/bodies/spg/failure/failure_criterion.h"
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -55,10 +57,37 @@ public:
       over bonds must then be carried over. Collective. @return whether the
       list has changed, the same on all ranks. Each end counts its own, so a
       bond counts twice in the sum of n_failed. */
-  bool remove(const NodalState &nodes, BondList &bonds);
+  bool remove(const NodalState &nodes, BondList &bonds,
+              const GhostExchange &exchange);
+  /** There are other ghosts; n_local with them. Collective where particles may
+      crumble. */
+  void renew_ghosts(const GhostExchange &exchange, const std::size_t n_local);
 
-  /** Failed bonds of an owned particle over all it ever had.
-      n_failed/(n_failed + bonds left); 0 for a particle that never had any. */
+  /** Whether one of an owned particle's bonds failed while its own measure
+      exceeded the critical value (ParticleDamage). */
+  bool has_crumbled(const std::size_t i) const { return crumbled[i]; }
+  /** Whether an owned particle is beside a crack, or crumbled. */
+  bool has_cracks(const std::size_t i) const
+  {
+    return n_failed[i] > 0 || crumbled[i];
+  }
+  /** Whether a bond of the list holds, i owned, j its neighbor; without are
+      those of crumbled metal that stays a continuum. */
+  bool is_cohesive(const std::size_t i, const std::uint32_t j) const
+  {
+    return !(joins_crumbled && crumbled[i] && crumbled[j]);
+  }
+  /** Whether the rule keeps crumbled metal a continuum. */
+  bool keeps_crumbled() const { return joins_crumbled; }
+  /** Whether there are bonds between crumbled particles, which have to be found
+      anew. Collective, the same on all ranks. */
+  bool renews_crumbled(MPI_Comm communicator) const;
+  /** Bonds of an owned particle that failed or do not hold any more. */
+  std::size_t n_broken(const BondList &bonds, const std::size_t i) const;
+  /** Bonds of an owned particle that hold. */
+  std::size_t n_holding(const BondList &bonds, const std::size_t i) const;
+  /** Broken bonds of an owned particle over all it has; 0 for a particle that
+      never had any. */
   double failed_fraction(const BondList &bonds, const std::size_t i) const;
 
   /** Ask @p rule which particles have failed, into is_failed. @p
@@ -90,7 +119,9 @@ private:
   const bool remembers_pairs;
   std::vector<double> measure; // owned and ghosts
   std::vector<char> is_marked; // per bond, by the last find()
-  std::vector<char> exceeded;  // see ParticleDamage::exceeded_limit
+  bool joins_crumbled = false;
+  std::vector<char> crumbles; // owned, by the last find()
+  std::vector<char> crumbled; // owned and ghosts, see has_crumbled()
 };
 } // namespace sabot
 

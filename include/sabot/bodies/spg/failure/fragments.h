@@ -10,6 +10,7 @@
 
 namespace sabot
 {
+class BondFailure;
 class BondList;
 class GhostExchange;
 
@@ -21,6 +22,7 @@ class GhostExchange;
     piece crosses. A particle without bonds is a piece of its own. */
 std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
                                          const BondList &bonds,
+                                         const BondFailure &failure,
                                          const GhostExchange &exchange,
                                          MPI_Comm communicator);
 

@@ -20,10 +20,9 @@ struct ParticleDamage
   /** Its remaining bonds no longer span space, or have not closed yet
       (Approximation::lost_direction). */
   bool lost_direction = false;
-  /** A bond of it has failed, and its own measure of failure has exceeded the
-      critical value since: the metal here has failed, not only beside it.
-      Stays. */
-  bool exceeded_limit = false;
+  /** One of its bonds failed while its own measure of failure exceeded the
+      critical value: the metal here has failed, not only beside it. Stays. */
+  bool has_crumbled = false;
 };
 
 /** Which points of a batch have failed, and where their losses go: [n] each.
@@ -62,6 +61,10 @@ public:
   /** Friction coefficient of the body's pieces on each other, >= 0, without
       unit; before the first step. */
   virtual void set_internal_friction(const double /*coefficient*/) {}
+  /** Whether crumbled metal stays one continuum: bonds between two particles
+      that have crumbled are not removed but found anew as pieces slide, since
+      the rule leaves their stress no cohesion. */
+  virtual bool joins_crumbled() const { return false; }
   /** Whether it turns work into heat of friction (FailedPoints). */
   virtual bool has_friction() const { return false; }
 

@@ -1,5 +1,5 @@
-#ifndef sabot_couplings_point_buckets_h
-#define sabot_couplings_point_buckets_h
+#ifndef sabot_kernels_point_buckets_h
+#define sabot_kernels_point_buckets_h
 
 #include "sabot/kernels/vec.h"
 
