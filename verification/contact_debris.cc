@@ -1,4 +1,5 @@
 // Two pieces of a broken bar collide through self-contact.
+#include "sabot/base/choice.h"
 #include "sabot/couplings/self_contact.h"
 #include "verification/problem.h"
 #include "verification/world.h"
@@ -28,6 +29,8 @@ Collision collide(const double stiffness_scale)
   SpgOptions options;
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
   options.set_critical_plastic_strain(0.1);
+  // Loose particles are what self-contact alone holds apart.
+  options.residual_strength = choose<ResidualStrength>("compression");
   const auto metal = hardening_aluminum();
   world.bodies.push_back(std::make_unique<SpgBody>(
       "bar", 0, make_box_cloud({{0, 0, 0}}, {{11e-3, 3e-3, 3e-3}}, spacing),

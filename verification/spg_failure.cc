@@ -17,9 +17,11 @@ std::shared_ptr<const Material> perfect(const double yield)
   return hardening_aluminum(yield, 0.);
 }
 
+/** Bonds that fail go, as in the paper. */
 SpgOptions inviscid()
 {
   SpgOptions o;
+  o.residual_strength = choose<ResidualStrength>("compression");
   o.bulk_viscosity_linear = o.bulk_viscosity_quadratic = 0.;
   o.failure_check_interval = 1;
   return o;

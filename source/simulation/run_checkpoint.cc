@@ -36,10 +36,14 @@ void Run::visit_all(Visitor &visitor)
   for (const auto &body : scene.bodies)
   {
     visitor.section = "body " + body->name;
-    // The partition must be the one of the run that wrote it.
-    std::vector<GlobalIndex> nodes = body->nodes().global_id;
+    // The partition must be the one of the run that wrote it; ghosts follow
+    // from the state of the body.
+    const auto &ids = body->nodes().global_id;
+    const std::vector<GlobalIndex> owned(ids.begin(),
+                                         ids.begin() + body->nodes().n_owned);
+    std::vector<GlobalIndex> nodes = owned;
     visitor.visit_array("nodes", nodes);
-    if (nodes != body->nodes().global_id)
+    if (nodes != owned)
       throw IOError("the checkpoint does not fit: nodes of body \"" +
                     body->name + "\" are spread over the ranks otherwise");
     body->visit_state(visitor);

@@ -1,4 +1,5 @@
 // Particles against exact answers on small blocks.
+#include "sabot/base/choice.h"
 #include "verification/balance.h"
 
 #include <gtest/gtest.h>
@@ -253,6 +254,7 @@ struct BreakingBlock
     options.set_critical_plastic_strain(0.45);
     options.critical_stretch = critical_stretch;
     options.failure_check_interval = 1;
+    options.residual_strength = choose<ResidualStrength>("compression");
     options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
     body = &add_block(world, {{3e-3, 3e-3, 3e-3}}, 1e-3, 0., options, material);
     NodalState &n = body->nodes();
@@ -321,6 +323,7 @@ SpgBody &add_sheet(World &world, std::shared_ptr<const Material> material)
   cloud.spacing = {{h, h, h}};
   cloud.on_face.assign(cloud.position.size(), 0);
   SpgOptions options;
+  options.residual_strength = choose<ResidualStrength>("compression");
   options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
   world.bodies.push_back(
       std::make_unique<SpgBody>("sheet", 0, cloud, material, options));

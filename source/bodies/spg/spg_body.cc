@@ -254,16 +254,16 @@ void SpgBody::update_kernel(const unsigned int step)
                           failed_already = failure.is_failed;
   if (failure.remove(nodal_state, bonds, node_exchange))
     stabilization->carry_bonds(bonds);
-  if (failure.renews_crumbled(communicator))
-  {
-    renumber(renew_crumbled_neighbors(nodal_state, bonds, failure, kernel,
-                                      communicator));
-    node_exchange.update(fields.kernel.data());
-  }
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
   {
     renumber(search_neighbors(options, nodal_state, bonds, fields, failure,
                               n_global, communicator));
+    node_exchange.update(fields.kernel.data());
+  }
+  if (failure.renews_crumbled(communicator))
+  {
+    renumber(renew_crumbled_neighbors(nodal_state, bonds, failure, kernel,
+                                      communicator));
     node_exchange.update(fields.kernel.data());
   }
 

@@ -37,8 +37,8 @@ BodyMeasures SpgBody::measure() const
     stabilized.add(stabilization->work()[i]);
     plastic.add(points.plastic_work[i]);
     lost.add(failure.loss[i]);
-    bonds_failed.add(failure.n_broken(bonds, i));
-    bonds_all.add(bonds.n_bonds(i) + failure.n_failed[i]);
+    bonds_failed.add(failure.n_failed[i]);
+    bonds_all.add(failure.n_holding(bonds, i) + failure.n_failed[i]);
     n_weak.add(approximation.lost_direction[i]);
     n_isolated.add(bonds.n_bonds(i) == 0);
     top[0] = std::max(top[0], eps ? eps[i] : 0.);

@@ -130,13 +130,6 @@ public:
   GlobalIndex n_items() const override { return n_global; }
   std::string step_timer_name() const override { return "spg step"; }
 
-  /** Local indices of owned particles on the faces of @p faces (bits as in
-      ParticleCloud::on_face). */
-  std::vector<std::size_t> particles_on_faces(const std::uint32_t faces) const
-  {
-    return surface.particles_on(faces);
-  }
-
   /** Largest frequency of the linearized body at rest [rad/s], by @p n
       Lanczos iterations on M^-1 K with elastic moduli in the configuration of
       the last kernel update; from below. Collective. */
@@ -169,8 +162,6 @@ public:
       update. */
   std::size_t n_fallbacks() const { return approximation.n_fallbacks(); }
   std::size_t n_kernel_updates() const { return n_updates; }
-  /** Whether it bears only what the rule for failed metal leaves. */
-  bool has_failed(const std::size_t i) const { return failure.is_failed[i]; }
   bool is_weak(const std::size_t i) const
   {
     return approximation.lost_direction[i];

@@ -54,7 +54,7 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
-      if (measure[i] + measure[j] <= 2. * critical)
+      if (measure[i] + measure[j] <= 2. * critical || !is_cohesive(i, j))
         continue;
       const Vec now = nodes.position[j] - nodes.position[i],
                 original =
@@ -65,7 +65,7 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
                  stays = joins_crumbled && here && measure[j] > critical;
       is_marked[b] = !stays;
       crumbles[i] |= here;
-      any = any || !stays || !crumbled[i];
+      any = true;
     }
   return any;
 }
@@ -75,18 +75,21 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
 {
   if (!criterion->can_be_met())
     return false;
-  for (std::size_t i = 0; i < nodes.n_owned; ++i)
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (is_marked[b])
-      {
-        ++n_failed[i];
-        if (remembers_pairs)
-          failed_pairs[i].push_back(nodes.global_id[bonds.neighbor[b]]);
-      }
+  // A bond fails once, whether it goes or stays without cohesion.
+  const std::vector<char> before = crumbled;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     crumbled[i] |= crumbles[i];
   if (joins_crumbled)
     exchange.update(crumbled.data());
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    {
+      const std::uint32_t j = bonds.neighbor[b];
+      const bool held = !(joins_crumbled && before[i] && before[j]);
+      n_failed[i] += is_marked[b] || (held && !is_cohesive(i, j));
+      if (is_marked[b] && remembers_pairs)
+        failed_pairs[i].push_back(nodes.global_id[j]);
+    }
   return bonds.remove(is_marked);
 }
 
@@ -128,17 +131,11 @@ std::size_t BondFailure::n_holding(const BondList &bonds,
   return n;
 }
 
-std::size_t BondFailure::n_broken(const BondList &bonds,
-                                  const std::size_t i) const
-{
-  return n_failed[i] + bonds.n_bonds(i) - n_holding(bonds, i);
-}
-
 double BondFailure::failed_fraction(const BondList &bonds,
                                     const std::size_t i) const
 {
-  const double all = bonds.n_bonds(i) + n_failed[i];
-  return all > 0. ? n_broken(bonds, i) / all : 0.;
+  const double all = n_holding(bonds, i) + n_failed[i];
+  return all > 0. ? n_failed[i] / all : 0.;
 }
 
 void BondFailure::visit_state(StateVisitor &visitor)

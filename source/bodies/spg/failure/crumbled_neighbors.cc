@@ -21,8 +21,8 @@ struct Crumb
 
 /** Those of all ranks, by number. */
 AlignedVector<Crumb> gather_crumbs(const NodalState &nodes,
-                                 const BondFailure &failure,
-                                 MPI_Comm communicator)
+                                   const BondFailure &failure,
+                                   MPI_Comm communicator)
 {
   AlignedVector<Crumb> mine;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)

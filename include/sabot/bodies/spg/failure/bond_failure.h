@@ -82,12 +82,10 @@ public:
   /** Whether there are bonds between crumbled particles, which have to be found
       anew. Collective, the same on all ranks. */
   bool renews_crumbled(MPI_Comm communicator) const;
-  /** Bonds of an owned particle that failed or do not hold any more. */
-  std::size_t n_broken(const BondList &bonds, const std::size_t i) const;
   /** Bonds of an owned particle that hold. */
   std::size_t n_holding(const BondList &bonds, const std::size_t i) const;
-  /** Broken bonds of an owned particle over all it has; 0 for a particle that
-      never had any. */
+  /** Failed bonds of an owned particle over these and those that hold; 0 for a
+      particle that never had any. */
   double failed_fraction(const BondList &bonds, const std::size_t i) const;
 
   /** Ask @p rule which particles have failed, into is_failed. @p
