@@ -19,6 +19,7 @@ void ParticleFields::resize(const std::size_t n_local)
 {
   generalized_stress.resize(n_local, Mat::zero());
   kernel.resize(n_local);
+  kernel_reference_position.resize(n_local);
 }
 
 void ParticleFields::visit_state(StateVisitor &visitor)

@@ -56,8 +56,8 @@ struct ParticleFields
       LagrangianKernel::start(). */
   void allocate(const std::vector<double> &volume, const bool stiffens);
   /** Room for ghosts: @p n_local particles, owned ones included. New entries
-      of stress are zero, of kernels the caller's to fill; positions at the
-      last update are set as a whole by the kernel update. */
+      of stress are zero, of kernels and positions at the last update the
+      caller's to fill. */
   void resize(const std::size_t n_local);
 
   /** Total F of an owned particle. */
