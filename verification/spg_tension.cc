@@ -34,12 +34,19 @@ double elastic_energy(const SpgBody &body)
 std::vector<Check> tension_bar()
 {
   std::vector<Check> checks;
-  for (const double spacing : {1e-3, 0.75e-3, 0.5e-3})
+  for (const auto &[spacing, length] :
+       std::vector<std::pair<double, double>>{{1e-3, 0.},
+                                              {0.75e-3, 0.},
+                                              {0.5e-3, 0.},
+                                              {0.75e-3, 1e-3},
+                                              {0.5e-3, 1e-3}})
   {
     const double L = 12e-3, w = 3e-3, v = 250.;
     World world;
     SpgOptions o;
     o.set_critical_plastic_strain(0.4);
+    if (length > 0.)
+      o.nonlocal_length = length;
     const auto metal = hardening_aluminum();
     world.bodies.push_back(std::make_unique<SpgBody>(
         "bar", 0, make_box_cloud({{0, 0, 0}}, {{L, w, w}}, spacing), metal, o));
@@ -97,8 +104,10 @@ std::vector<Check> tension_bar()
     const double stored = elastic_energy(body),
                  lost = energy - e.kinetic.value() - stored,
                  plastic = e.plastic_work.value();
-    char text[32];
-    std::snprintf(text, sizeof(text), "%g mm: ", 1e3 * spacing);
+    char text[60];
+    std::snprintf(text, sizeof(text),
+                  length > 0. ? "%g mm, length %g mm: " : "%g mm: ",
+                  1e3 * spacing, 1e3 * length);
     const std::string at = text;
     checks.push_back({at + "pieces of a tenth of the mass", 2.,
                       double(std::count_if(pieces.begin(), pieces.end(),

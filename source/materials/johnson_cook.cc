@@ -65,9 +65,7 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     const double mean = (s[0] + s[1] + s[2]) / 3.,
                  smallest = 1e-12 * shear_modulus();
     const double triaxiality = mean / std::max(von_mises(s), smallest);
-    damage[k] =
-        std::min(1., damage[k] + d / fracture_strain(triaxiality, d / b.dt,
-                                                     temperature[k]));
+    damage[k] += d / fracture_strain(triaxiality, d / b.dt, temperature[k]);
   }
 }
 
@@ -145,9 +143,10 @@ JohnsonCookParameters parse(const Parameters &prm, const std::string &path,
   return p;
 }
 
-const DescribeField described({"damage", "1", 1,
-                               "cells, particles of Johnson-Cook with damage",
-                               "Johnson and Cook 1985: 1 at fracture."});
+const DescribeField
+    described({"damage", "1", 1, "cells, particles of Johnson-Cook with damage",
+               "Johnson and Cook 1985: 1 at fracture, beyond where "
+               "nothing fails by it."});
 
 const Registry<Material>::Add registered(
     {"Johnson-Cook",

@@ -25,8 +25,8 @@ TEST(SpgRooms, choices_are_registered)
             (Names{"bond residual", "none", "second gradient",
                    "velocity smoothing"}));
   EXPECT_EQ(names<FailureCriterion>(),
-            (Names{"effective plastic strain", "maximum principal stress",
-                   "maximum shear strain"}));
+            (Names{"damage", "effective plastic strain",
+                   "maximum principal stress", "maximum shear strain"}));
   EXPECT_EQ(names<ResidualStrength>(),
             (Names{"compression", "everything", "friction"}));
 }

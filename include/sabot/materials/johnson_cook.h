@@ -124,13 +124,15 @@ struct JohnsonCookFlow
 
 /**
  * The law, and with has_damage its fracture model as the state "damage":
- * D += d_eps / eps_f, at most 1,
+ * D += d_eps / eps_f,
  *
  *   eps_f = (D1 + D2 exp(D3 sigma*))(1 + D4 ln eps*)(1 + D5 T*),
  *
  * sigma* = mean stress / von Mises stress at the end of the step, at most 1.5
  * (Johnson & Cook 1985) and at least -10, eps_f not below a smallest strain.
- * Damage leaves the stress alone: what fails at D = 1 is the body's choice.
+ * Damage leaves the stress alone: what fails at D = 1 is the body's choice. It
+ * goes on beyond, so that a mean over two points passes 1 where one of them has
+ * not.
  */
 class JohnsonCook : public RateDependentPlasticity<JohnsonCookFlow>
 {

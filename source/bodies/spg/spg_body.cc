@@ -117,14 +117,19 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   stable.estimate(parts, *stabilization);
   if (n_global > 1)
     stable.calibrate(parts, *stabilization, 0, true, communicator);
+  const ParticleConduction::Cloud conducting{bonds,
+                                             node_exchange,
+                                             fields.kernel_reference_position,
+                                             approximation.moment_inverse,
+                                             fields.kernel_reference_volume,
+                                             approximation.lost_direction};
   if (options.conducts_heat)
     heat = std::make_unique<ParticleConduction>(
-        law.conductivity(),
-        ParticleConduction::Cloud{
-            bonds, node_exchange, fields.kernel_reference_position,
-            approximation.moment_inverse, fields.kernel_reference_volume,
-            approximation.lost_direction},
-        std::move(capacity), communicator);
+        law.conductivity(), conducting, std::move(capacity), communicator);
+  if (options.nonlocal_length && options.can_fail())
+    failure.average_by(std::make_unique<ParticleConduction>(
+        *options.nonlocal_length * *options.nonlocal_length, conducting,
+        std::move(volume), communicator));
 }
 
 void SpgBody::renumber(const BondList::Rows &rows)
@@ -194,7 +199,10 @@ bool SpgBody::update_topology(const unsigned int step, const double time)
   const bool regular = kernel.is_regular_step(step),
              looks = failure.is_due(step) || regular;
   const auto find_failed = [&]
-  { return failure.find(nodal_state, bonds, fields, points, node_exchange); };
+  {
+    return failure.find(nodal_state, bonds, fields, points, node_exchange,
+                        communicator);
+  };
   double due = kernel.has_changed(watch.largest_change) ||
                (regular && kernel.has_strained(fields));
   if (looks)

@@ -59,6 +59,11 @@ void declare_failure(Parameters &prm)
   prm.declare_entry("Critical stretch", "1", quantity(Dimension::none, 1., 10.),
                     "Distance over original distance above which a bond may "
                     "fail; at least 1, so that none fails in compression.");
+  prm.declare_entry("Nonlocal length", "none",
+                    word_or("none", quantity(Dimension::length, 1e-9, 1e2)),
+                    "Length l over which the measure of failure is averaged "
+                    "along the bonds, m - l^2 div grad m = local measure: the "
+                    "width of a failing band where it is above the spacing.");
   Registry<ResidualStrength>::declare_choice(
       prm, "Failed metal carries", standard_rule,
       "Stress of particles that have failed: whose remaining bonds no longer "
@@ -173,6 +178,7 @@ SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
   o.failure_criterion =
       chosen<FailureCriterion>(prm, path, "Failure criterion");
   o.critical_stretch = get_quantity(prm, "Critical stretch");
+  o.nonlocal_length = get_optional_quantity(prm, "Nonlocal length");
   o.residual_strength =
       chosen<ResidualStrength>(prm, path, "Failed metal carries");
   o.stabilization = chosen<Stabilization>(prm, path, "Stabilization");

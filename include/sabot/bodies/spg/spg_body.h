@@ -162,6 +162,10 @@ public:
       update. */
   std::size_t n_fallbacks() const { return approximation.n_fallbacks(); }
   std::size_t n_kernel_updates() const { return n_updates; }
+  bool has_crumbled(const std::size_t i) const
+  {
+    return failure.has_crumbled(i);
+  }
   bool is_weak(const std::size_t i) const
   {
     return approximation.lost_direction[i];

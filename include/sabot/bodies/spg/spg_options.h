@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace sabot
@@ -77,6 +78,8 @@ struct SpgOptions
   /** |dx| over |dX at the start| that a bond must exceed to fail, beside the
       criterion; >= 1, so that none fails in compression. */
   double critical_stretch = 1.0;
+  /** Over which the measure of failure is averaged [m]; none: it is local. */
+  std::optional<double> nonlocal_length;
   ResidualStrength::Maker residual_strength;
   /** c1 and c2 of q = rho h (c1 c |d| + c2 h d^2) in compression. */
   double bulk_viscosity_linear = 0.06;

@@ -3,8 +3,10 @@
 
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
+#include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
+#include "sabot/bodies/spg/particle_conduction.h"
 #include "sabot/bodies/spg/spg_options.h"
 
 #include <algorithm>
@@ -34,21 +36,46 @@ void BondFailure::allocate(const std::size_t n_owned,
     failed_pairs.resize(n_owned);
 }
 
+BondFailure::~BondFailure() = default;
+
+void BondFailure::average_by(std::unique_ptr<ParticleConduction> averaging)
+{
+  this->averaging = std::move(averaging);
+}
+
+bool BondFailure::find_measure(const ParticleFields &fields,
+                               const MaterialPoints &points,
+                               MPI_Comm communicator)
+{
+  criterion->measure(points, fields, measure.data());
+  if (!averaging)
+    return true;
+  double top = 0.;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    top = std::max(top, measure[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  if (top <= criterion->critical_value())
+    return false;
+  averaging->advance(1., measure.data());
+  return true;
+}
+
 bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
                        const ParticleFields &fields,
                        const MaterialPoints &points,
-                       const GhostExchange &exchange)
+                       const GhostExchange &exchange, MPI_Comm communicator)
 {
   if (!criterion->can_be_met())
     return false;
   measure.resize(nodes.size());
-  criterion->measure(points, fields, measure.data());
+  is_marked.assign(bonds.capacity(), 0);
+  crumbles.assign(nodes.n_owned, 0);
+  if (!find_measure(fields, points, communicator))
+    return false;
   exchange.update(measure.data());
   // Only bonds with a strained end can fail (their mean exceeds the limit).
   const double critical = criterion->critical_value(),
                square = critical_stretch * critical_stretch;
-  is_marked.assign(bonds.capacity(), 0);
-  crumbles.assign(nodes.n_owned, 0);
   bool any = false;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)

@@ -16,6 +16,7 @@ namespace sabot
 class BondList;
 class GhostExchange;
 class MaterialPoints;
+class ParticleConduction;
 class ResidualStrength;
 struct NodalState;
 struct ParticleFields;
@@ -36,6 +37,18 @@ public:
   /** Copies what it needs of the options; pairs are remembered only under
       the policy that searches all pairs. */
   explicit BondFailure(const SpgOptions &options);
+  ~BondFailure();
+  /**
+   * From now on the measure m of the criterion is averaged over a length,
+   *
+   *   m_bar - l^2 div grad m_bar = m,
+   *
+   * insulated at surfaces and failed bonds (implicit gradient, Peerlings et al.
+   * 1996): @p averaging is a step of conduction of one second with the
+   * conductivity l^2 [m^2] and volumes as capacity. Where m is nowhere above
+   * the critical value m_bar is not, either, and nothing is solved.
+   */
+  void average_by(std::unique_ptr<ParticleConduction> averaging);
 
   /** For @p n_owned particles under @p rule. */
   void allocate(const std::size_t n_owned, const ResidualStrength &rule);
@@ -52,7 +65,7 @@ public:
       criterion can never be met. */
   bool find(const NodalState &nodes, const BondList &bonds,
             const ParticleFields &fields, const MaterialPoints &points,
-            const GhostExchange &exchange);
+            const GhostExchange &exchange, MPI_Comm communicator);
   /** Remove the bonds that the last find() marked and count them; arrays
       over bonds must then be carried over. Collective. @return whether the
       list has changed, the same on all ranks. Each end counts its own, so a
@@ -117,6 +130,12 @@ private:
   const bool remembers_pairs;
   std::vector<double> measure; // owned and ghosts
   std::vector<char> is_marked; // per bond, by the last find()
+  /** m, or m_bar, of the owned particles into measure. Collective. @return
+      false where no bond can fail by it. */
+  bool find_measure(const ParticleFields &fields, const MaterialPoints &points,
+                    MPI_Comm communicator);
+
+  std::unique_ptr<ParticleConduction> averaging; // only with a length
   bool joins_crumbled = false;
   std::vector<char> crumbles; // owned, by the last find()
   std::vector<char> crumbled; // owned and ghosts, see has_crumbled()
