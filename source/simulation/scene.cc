@@ -130,7 +130,7 @@ void Scene::build_quantities()
     { return *bodies[body_index(path + "/" + entry, prm.get(entry))]; };
     quantities.push_back(
         Registry<QuantityOfInterest>::get(path + "/Type", prm.get("Type"))
-            .make({prm, path, name, body}));
+            .make({prm, path, name, body, communicator}));
     quantities.back()->name = name;
   }
 }

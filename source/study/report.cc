@@ -163,6 +163,49 @@ void write_convergence(const StudyResults &results, std::ostream &html)
           "Comput. Phys. 262 (2014) 104.</p>\n";
 }
 
+/** Means and spreads of runs that are repeats of each other. */
+void write_scatter(const StudyResults &results, std::ostream &html)
+{
+  if (results.scatter.empty())
+    return;
+  html << "<h2>Scatter of repeated runs</h2><div class='scroll'><table><tr>"
+       << head("quantity", true) << head("parameters", true) << head("runs")
+       << head("mean") << head("standard deviation") << head("range")
+       << "</tr>\n";
+  for (const Scatter &s : results.scatter)
+    html << "<tr>" << cell(results.study.quantities[s.quantity].name, true)
+         << cell(s.others, true) << cell(std::to_string(s.n))
+         << cell(number(s.mean)) << cell(number(s.deviation, "%.3g"))
+         << cell(number(s.range, "%.3g")) << "</tr>\n";
+  html << "</table></div>\n";
+}
+
+void write_ballistic(const StudyResults &results, std::ostream &html)
+{
+  if (results.ballistic.empty())
+    return;
+  html << "<h2>Ballistic curve</h2><div class='scroll'><table><tr>"
+       << head("quantity", true) << head("other parameters", true)
+       << head("runs that perforate") << head("limit [m/s]") << head("a")
+       << head("p") << head("root mean square off [m/s]") << "</tr>\n";
+  for (const BallisticSeries &s : results.ballistic)
+  {
+    const BallisticFit &fit = s.fit;
+    const double none = std::nan("");
+    html << "<tr>" << cell(results.study.quantities[s.quantity].name, true)
+         << cell(s.others.empty() ? "base" : s.others, true)
+         << cell(std::to_string(fit.n_perforating))
+         << cell(number(fit.exists ? fit.limit : none))
+         << cell(number(fit.exists ? fit.a : none, "%.3f"))
+         << cell(number(fit.exists ? fit.p : none, "%.2f"))
+         << cell(number(fit.exists ? fit.deviation : none, "%.3g"))
+         << "</tr>\n";
+  }
+  html << "</table></div><p>v<sub>r</sub> = a (v<sub>i</sub><sup>p</sup> - "
+          "v<sub>bl</sub><sup>p</sup>)<sup>1/p</sup>; with fewer than four "
+          "runs that perforate p is 2.</p>\n";
+}
+
 void write_prices(const StudyResults &results, std::ostream &html)
 {
   const StudyFile &study = results.study;
@@ -226,6 +269,8 @@ void write_report(const StudyResults &results, const std::vector<Chart> &charts,
   for (const Chart &chart : charts)
     html << "<figure>" << draw_svg(chart) << "</figure>\n";
   html << "</div>\n";
+  write_scatter(results, html);
+  write_ballistic(results, html);
   write_convergence(results, html);
   write_prices(results, html);
   write_energies(results, html);

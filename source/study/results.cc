@@ -114,6 +114,8 @@ StudyResults::StudyResults(const StudyFile &study,
         find_convergence(p, q);
   for (std::size_t q = 0; q < study.quantities.size(); ++q)
   {
+    find_scatter(q);
+    find_ballistic(q);
     references.push_back(find_reference(q));
     find_prices(q);
   }
@@ -127,21 +129,26 @@ bool StudyResults::is_usable(const std::size_t run, const std::size_t q) const
 
 void StudyResults::find_convergence(const std::size_t p, const std::size_t q)
 {
-  // One series for each choice of the other parameters.
+  // One series for each choice of the other parameters; repeats are averaged.
   std::map<std::vector<std::size_t>, ConvergenceSeries> series;
+  std::map<std::vector<std::size_t>, std::pair<double, double>> sums;
   for (std::size_t run = 0; run < study.runs.size(); ++run)
+    if (is_usable(run, q))
+    {
+      auto &[sum, n] = sums[without_repeats(run)];
+      sum += outcomes[run].quantities[q];
+      n += 1.;
+    }
+  for (const auto &[choice, sum] : sums)
   {
-    if (!is_usable(run, q))
-      continue;
-    std::vector<std::size_t> rest = study.runs[run].choice;
+    std::vector<std::size_t> rest = choice;
     rest[p] = 0;
     ConvergenceSeries &s = series[rest];
     s.parameter = p;
     s.quantity = q;
-    s.others = study.label(study.runs[run], p);
-    s.spacing.push_back(
-        study.parameters[p].values[study.runs[run].choice[p]].number);
-    s.value.push_back(outcomes[run].quantities[q]);
+    s.others = study.label({rest, "", {}, ""}, p);
+    s.spacing.push_back(study.parameters[p].values[choice[p]].number);
+    s.value.push_back(sum.first / sum.second);
   }
   for (auto &[rest, s] : series)
     if (s.spacing.size() >= 2)
@@ -149,6 +156,68 @@ void StudyResults::find_convergence(const std::size_t p, const std::size_t q)
       s.fit = fit_convergence(s.spacing, s.value);
       convergence.push_back(s);
     }
+}
+
+std::vector<std::size_t>
+StudyResults::without_repeats(const std::size_t run) const
+{
+  std::vector<std::size_t> choice = study.runs[run].choice;
+  for (std::size_t p = 0; p < choice.size(); ++p)
+    if (study.parameters[p].role == StudyParameter::Role::repeat)
+      choice[p] = 0;
+  return choice;
+}
+
+void StudyResults::find_scatter(const std::size_t q)
+{
+  std::map<std::vector<std::size_t>, std::vector<double>> groups;
+  for (std::size_t run = 0; run < study.runs.size(); ++run)
+    if (is_usable(run, q))
+      groups[without_repeats(run)].push_back(outcomes[run].quantities[q]);
+  for (const auto &[choice, values] : groups)
+  {
+    if (values.size() < 2)
+      continue;
+    Scatter s;
+    s.quantity = q;
+    const std::string words = study.label({choice, "", {}, ""});
+    s.others = words.empty() ? "base" : words;
+    s.n = values.size();
+    for (const double value : values)
+      s.mean += value / s.n;
+    for (const double value : values)
+      s.deviation += (value - s.mean) * (value - s.mean) / (s.n - 1.);
+    s.deviation = std::sqrt(s.deviation);
+    const auto ends = std::minmax_element(values.begin(), values.end());
+    s.range = *ends.second - *ends.first;
+    scatter.push_back(s);
+  }
+}
+
+void StudyResults::find_ballistic(const std::size_t q)
+{
+  const std::string &name = study.quantities[q].ballistic;
+  for (std::size_t p = 0; p < study.parameters.size(); ++p)
+  {
+    if (study.parameters[p].name != name)
+      continue;
+    std::map<std::vector<std::size_t>,
+             std::pair<std::vector<double>, std::vector<double>>>
+        curves;
+    for (std::size_t run = 0; run < study.runs.size(); ++run)
+    {
+      std::vector<std::size_t> choice = without_repeats(run);
+      const double impact = study.parameters[p].values[choice[p]].number;
+      choice[p] = 0;
+      if (!is_usable(run, q))
+        continue;
+      curves[choice].first.push_back(impact);
+      curves[choice].second.push_back(outcomes[run].quantities[q]);
+    }
+    for (const auto &[choice, curve] : curves)
+      ballistic.push_back({p, q, choice, study.label({choice, "", {}, ""}, p),
+                           fit_ballistic(curve.first, curve.second)});
+  }
 }
 
 ErrorReference StudyResults::find_reference(const std::size_t q) const

@@ -140,6 +140,45 @@ Places places_of(const StudyParameter &parameter)
   return places;
 }
 
+/** The fitted curves up to the fastest shot, and what was measured. */
+void add_ballistic(const StudyResults &results, const std::size_t q,
+                   const std::size_t p, const double low, const double high,
+                   Chart &chart)
+{
+  constexpr int n_points = 200;
+  for (const BallisticSeries &series : results.ballistic)
+  {
+    if (series.quantity != q || series.parameter != p || !series.fit.exists)
+      continue;
+    Chart::Series curve;
+    char text[80];
+    std::snprintf(text, sizeof(text), "fit: limit %.1f m/s, a %.3f, p %.2f",
+                  series.fit.limit, series.fit.a, series.fit.p);
+    curve.label = (series.others.empty() ? "" : series.others + ", ") + text;
+    curve.is_dashed = true;
+    const double from = std::min(low, series.fit.limit);
+    for (int i = 0; i <= n_points; ++i)
+    {
+      const double impact = from + (high - from) * i / n_points;
+      curve.x.push_back(impact);
+      curve.y.push_back(series.fit.residual(impact));
+    }
+    chart.series.push_back(curve);
+  }
+  Chart::Series measured;
+  measured.label = "measured";
+  measured.has_line = false;
+  measured.has_points = true;
+  for (const auto &[impact, residual] :
+       results.study.quantities[q].measured_curve)
+  {
+    measured.x.push_back(impact);
+    measured.y.push_back(residual);
+  }
+  if (!measured.x.empty())
+    chart.series.push_back(measured);
+}
+
 Chart parameter_chart(const StudyResults &results, const std::size_t q,
                       const std::size_t p)
 {
@@ -185,7 +224,11 @@ Chart parameter_chart(const StudyResults &results, const std::size_t q,
     }
     chart.series.push_back(series);
   }
-  if (std::isfinite(results.references[q].value) && low <= high)
+  const bool is_ballistic = study.quantities[q].ballistic == parameter.name;
+  if (is_ballistic)
+    add_ballistic(results, q, p, low, high, chart);
+  if (std::isfinite(results.references[q].value) && low <= high &&
+      !is_ballistic)
     chart.series.push_back(level(results.references[q], low, high, factor));
   return chart;
 }

@@ -42,6 +42,7 @@ StudyParameter read_parameter(const Parameters &prm, const std::string &name,
   const std::string role = prm.get("Role");
   parameter.role = role == "spacing"   ? StudyParameter::Role::spacing
                    : role == "physics" ? StudyParameter::Role::physics
+                   : role == "repeat"  ? StudyParameter::Role::repeat
                                        : StudyParameter::Role::knob;
   parameter.entries = split(prm.get("Entries"), ';');
   if (parameter.entries.empty())
@@ -98,10 +99,11 @@ void declare_parameter(Parameters &prm)
   prm.declare_entry("Labels", "", any_text(),
                     "Names of the values in tables and charts, separated by "
                     "semicolons; none: the values themselves.");
-  prm.declare_entry("Role", "knob", one_of("knob|spacing|physics"),
+  prm.declare_entry("Role", "knob", one_of("knob|spacing|physics|repeat"),
                     "knob: trades speed for accuracy; spacing: sizes over "
                     "which convergence is judged; physics: changes the "
-                    "problem.");
+                    "problem; repeat: moves it by next to nothing, so that its "
+                    "runs show the scatter.");
 }
 
 void declare_quantity(Parameters &prm)
@@ -113,6 +115,32 @@ void declare_quantity(Parameters &prm)
   prm.declare_entry("Over", "", any_text(),
                     "Another quantity of the scene: the histories are also "
                     "drawn over it, as velocity over depth.");
+  prm.declare_entry("Ballistic fit over", "", any_text(),
+                    "The parameter whose values are impact velocities: the "
+                    "quantity is fitted as v_r = a (v_i^p - v_bl^p)^(1/p).");
+  prm.declare_entry("Measured curve", "", any_text(),
+                    "Impact and residual velocities of an experiment in m/s: "
+                    "\"303.5: 199.7; 200.4: 71.4\".");
+}
+
+/** "303.5: 199.7; 200.4: 71.4" as pairs. */
+std::vector<std::pair<double, double>> read_curve(const std::string &path,
+                                                  const std::string &text)
+{
+  std::vector<std::pair<double, double>> curve;
+  for (const std::string &point : split(text, ';'))
+  {
+    const std::vector<std::string> both = split(point, ':');
+    std::pair<double, double> values(number_of(both[0]),
+                                     both.size() == 2 ? number_of(both[1])
+                                                      : number_of(""));
+    if (!(values.first > 0.) || !(values.second >= 0.))
+      throw InputError(path, "\"" + point +
+                                 "\" is not a pair of velocities in m/s, as "
+                                 "\"303.5: 199.7\"");
+    curve.push_back(values);
+  }
+  return curve;
 }
 
 /** InputError for @p entry where the scene has no quantity @p name. */
@@ -128,6 +156,25 @@ void check_quantity(const std::string &entry, const std::string &scene,
                        (known.empty() ? std::string()
                                       : "; did you mean \"" +
                                             nearest_name(name, known) + "\"?"));
+}
+/** InputError where a ballistic fit has no parameter of velocities. */
+void check_ballistic(const std::string &path, const std::string &name,
+                     const std::vector<StudyParameter> &parameters)
+{
+  if (name.empty())
+    return;
+  for (const StudyParameter &parameter : parameters)
+    if (parameter.name == name)
+    {
+      for (const StudyParameter::Value &value : parameter.values)
+        if (!(value.number > 0.))
+          throw InputError(path, "the value \"" + value.label + "\" of \"" +
+                                     name +
+                                     "\" is not a velocity; give labels as "
+                                     "\"300 m/s\"");
+      return;
+    }
+  throw InputError(path, "the study has no parameter \"" + name + "\"");
 }
 } // namespace
 
@@ -234,6 +281,11 @@ void StudyFile::read(const ParameterFile &file)
     quantity.name = name;
     quantity.source = prm.get("Source");
     quantity.over = prm.get("Over");
+    quantity.ballistic = prm.get("Ballistic fit over");
+    check_ballistic("Quantities/" + name + "/Ballistic fit over",
+                    quantity.ballistic, parameters);
+    quantity.measured_curve = read_curve(
+        "Quantities/" + name + "/Measured curve", prm.get("Measured curve"));
     const std::string measured = prm.get("Measured value");
     if (measured != "nan")
     {

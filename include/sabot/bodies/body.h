@@ -96,6 +96,7 @@ struct DebrisView
     particle without bonds is a fragment of its own. */
 struct Fragment
 {
+  GlobalIndex label = -1; // least number of a particle in it
   GlobalIndex n_particles = 0;
   double mass = 0.;                 // [kg]
   std::array<double, 3> velocity{}; // of the center of mass [m/s]
@@ -154,6 +155,8 @@ public:
   /** Pieces that bonds still hold together, heaviest first. Collective, same
       on all ranks. */
   virtual std::vector<Fragment> connected_pieces() const = 0;
+  /** The label of the piece that each owned node belongs to. Collective. */
+  virtual std::vector<GlobalIndex> piece_labels() const = 0;
 };
 
 /**

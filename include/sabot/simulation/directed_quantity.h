@@ -3,6 +3,8 @@
 
 #include "sabot/simulation/quantity_of_interest.h"
 
+#include <cmath>
+
 namespace sabot
 {
 /** Declares the entry "Body" of a quantity. */
@@ -29,6 +31,13 @@ struct DirectedQuantity
    */
   int axis() const;
 };
+
+/** How many copies of a body that planes of symmetry cut make the whole: 2 for
+    each plane. */
+inline double copies_by_symmetry(const Body &body)
+{
+  return std::pow(2., double(body.planes_of_symmetry().size()));
+}
 
 /**
  * Extent of @p m along an axis [m].

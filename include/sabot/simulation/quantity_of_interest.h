@@ -17,6 +17,7 @@ struct QuantityRequest
   std::string path, name; // "Quantities/depth", "depth"
   /** The body that the entry @p entry names; InputError where there is none. */
   std::function<const Body &(const std::string &entry)> body;
+  MPI_Comm communicator;
 };
 
 /**

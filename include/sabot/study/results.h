@@ -3,6 +3,7 @@
 
 #include "sabot/output/history.h"
 #include "sabot/study/analysis.h"
+#include "sabot/study/ballistic_fit.h"
 #include "sabot/study/chart.h"
 #include "sabot/study/study_file.h"
 
@@ -60,6 +61,26 @@ struct ConvergenceSeries
   Convergence fit;                    // what the values tend to
 };
 
+/** Runs that are repeats of each other. */
+struct Scatter
+{
+  std::size_t quantity;
+  std::string others; // what the parameters are, in words
+  std::size_t n = 0;
+  double mean = 0.;
+  double deviation = 0.; // standard deviation of one run, n - 1
+  double range = 0.;     // largest less least
+};
+
+/** A quantity over impact velocities, for one choice of the others. */
+struct BallisticSeries
+{
+  std::size_t parameter, quantity;
+  std::vector<std::size_t> choice; // of the other parameters; 0 at this one
+  std::string others;              // the same in words
+  BallisticFit fit;
+};
+
 /**
  * Everything that a report shows: outcomes, and what follows from them for each
  * quantity, the reference of its errors, convergence, prices, Pareto front.
@@ -76,10 +97,12 @@ struct StudyResults
   StudyResults(const StudyFile &study, std::vector<StudyOutcome> outcomes);
 
   const StudyFile &study;
-  std::vector<StudyOutcome> outcomes;           // per run
-  std::vector<ErrorReference> references;       // per quantity
-  std::vector<ConvergenceSeries> convergence;   // spacings only
-  std::vector<std::vector<Price>> prices;       // per quantity
+  std::vector<StudyOutcome> outcomes;         // per run
+  std::vector<ErrorReference> references;     // per quantity
+  std::vector<ConvergenceSeries> convergence; // spacings only, means of repeats
+  std::vector<Scatter> scatter;               // where runs are repeated
+  std::vector<BallisticSeries> ballistic;     // where it is asked for
+  std::vector<std::vector<Price>> prices;     // per quantity
   std::vector<std::vector<std::size_t>> fronts; // per quantity: runs
 
   /** |value - reference|/|reference|, or without division where the reference
@@ -99,6 +122,12 @@ private:
   /** Add the series of a quantity over a parameter that is a spacing. */
   void find_convergence(const std::size_t parameter,
                         const std::size_t quantity);
+  /** Mean and scatter of a quantity over runs that are repeats. */
+  void find_scatter(const std::size_t quantity);
+  /** Fits of a quantity over impact velocities. */
+  void find_ballistic(const std::size_t quantity);
+  /** A run's choice with the parameters that repeat it at their first value. */
+  std::vector<std::size_t> without_repeats(const std::size_t run) const;
   /** The measured value; where there is none the limit of the base's
       convergence, else the value of the run that took longest. */
   ErrorReference find_reference(const std::size_t quantity) const;

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sabot
@@ -22,7 +23,8 @@ struct StudyParameter
   {
     knob,    // trades speed for accuracy
     spacing, // its values are sizes of the discretization
-    physics  // changes the problem
+    physics, // changes the problem
+    repeat // moves it by next to nothing: runs by it are repeats of each other
   };
   std::string name; // its subsection in the study
   Role role;
@@ -48,6 +50,11 @@ struct StudyQuantity
   std::string name;   // of the scene's quantity
   std::string source; // of the measured value
   std::string over;   // quantity over which its history is drawn, too; or empty
+  /** Parameter of impact velocities over which it is fitted as a ballistic
+      curve (BallisticFit); or empty. */
+  std::string ballistic;
+  /** What an experiment found: impact and residual velocity [m/s]. */
+  std::vector<std::pair<double, double>> measured_curve;
   double measured = std::numeric_limits<double>::quiet_NaN(); // SI; NaN: none
 };
 

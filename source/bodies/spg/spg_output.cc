@@ -141,7 +141,7 @@ OutputMesh SpgBody::output_mesh() const
             { return failure.failed_fraction(bonds, i); });
   if (options.can_fail())
   {
-    const std::vector<GlobalIndex> labels = views.labels();
+    const std::vector<GlobalIndex> labels = views.piece_labels();
     add_field(out, "fragment", n,
               [&](const std::size_t i, const unsigned int)
               { return double(labels[i]); });

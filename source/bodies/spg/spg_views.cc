@@ -51,7 +51,7 @@ std::size_t SpgViews::n_bonds() const
   return n;
 }
 
-std::vector<GlobalIndex> SpgViews::labels() const
+std::vector<GlobalIndex> SpgViews::piece_labels() const
 {
   return fragment_labels(body.nodes, body.bonds, body.failure, body.exchange,
                          communicator);
@@ -59,6 +59,6 @@ std::vector<GlobalIndex> SpgViews::labels() const
 
 std::vector<Fragment> SpgViews::connected_pieces() const
 {
-  return find_fragments(body.nodes, labels(), communicator);
+  return find_fragments(body.nodes, piece_labels(), communicator);
 }
 } // namespace sabot

@@ -44,12 +44,12 @@ public:
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
   /** Of this rank, every bond at each owned end. */
   std::size_t n_bonds() const override;
-  /** By labels(); collective. */
+  /** By piece_labels(); collective. */
   std::vector<Fragment> connected_pieces() const override;
 
   /** Label of the piece of each owned particle, see fragment_labels().
       Collective. [n_owned]; pieces by bonds that have not failed. */
-  std::vector<GlobalIndex> labels() const;
+  std::vector<GlobalIndex> piece_labels() const override;
 
 private:
   const SpgParts &body;

@@ -124,6 +124,7 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
   for (const auto &entry : sums)
   {
     Fragment f;
+    f.label = entry.first;
     f.n_particles = entry.second.n;
     f.mass = entry.second.mass.value();
     for (int d = 0; d < 3; ++d)

@@ -1,0 +1,74 @@
+// Quantity of interest: how wide a hole is.
+#include "sabot/simulation/directed_quantity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+/** Distance of a point from the line through @p center along an axis [m]. */
+double distance_from_line(const Vec x, const std::array<double, 3> &center,
+                          const int axis)
+{
+  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  return std::hypot(x[b] - center[b], x[c] - center[c]);
+}
+
+/** Twice the least distance of a node of the body's main piece from the line:
+    the widest cylinder that passes. */
+class HoleDiameter : public QuantityOfInterest
+{
+public:
+  explicit HoleDiameter(const QuantityRequest &request)
+      : along(DirectedQuantity::read(request, true)),
+        center(get_vector(request.prm, "Center")),
+        communicator(request.communicator)
+  {
+  }
+  double value() const override
+  {
+    const FragmentView *const pieces = along.body.fragments();
+    std::vector<GlobalIndex> label;
+    GlobalIndex main = -1;
+    if (pieces != nullptr)
+    {
+      label = pieces->piece_labels();
+      main = pieces->connected_pieces().front().label;
+    }
+    const NodalState &nodes = along.body.nodes();
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
+      if (pieces == nullptr || label[i] == main)
+        least = std::min(
+            least, distance_from_line(nodes.position[i], center, along.axis()));
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, communicator);
+    return 2. * least;
+  }
+  std::string unit() const override { return "m"; }
+
+private:
+  const DirectedQuantity along;
+  const std::array<double, 3> center;
+  MPI_Comm communicator;
+};
+
+void declare(Parameters &prm)
+{
+  declare_directed_quantity(prm);
+  prm.declare_entry("Center", "0 m, 0 m, 0 m",
+                    quantities(Dimension::length, 3, 3, -1e3, 1e3),
+                    "A point of the line about which the hole is measured.");
+}
+
+const Registry<QuantityOfInterest>::Add
+    registered({"hole diameter",
+                "of the widest cylinder about a line along the direction that "
+                "passes the body's main piece without meeting one of its "
+                "nodes; next to 0 where there is no hole.",
+                declare, [](const QuantityRequest &request) {
+                  return std::make_unique<HoleDiameter>(request);
+                }});
+} // namespace
+} // namespace sabot
