@@ -104,11 +104,29 @@ void Scene::build_couplings()
   }
   std::move(last.begin(), last.end(), std::back_inserter(couplings));
 
+  warn_of_lone_debris();
   for (const CarvedZone &zone : zones)
     if (context.tied.count({zone.zone, zone.host}) == 0)
       warnings.push_back("body \"" + bodies[zone.zone]->name +
                          "\" is carved from \"" + bodies[zone.host]->name +
                          "\" but not tied to it");
+}
+
+void Scene::warn_of_lone_debris()
+{
+  for (const auto &body : bodies)
+  {
+    if (body->fragments() == nullptr || !body->facts().may_fail)
+      continue;
+    bool meets_itself = false;
+    for (const auto &coupling : couplings)
+      for (const auto &[a, b] : coupling->holds_apart())
+        meets_itself = meets_itself || (a == body->id && b == body->id);
+    if (!meets_itself)
+      warnings.push_back("body \"" + body->name +
+                         "\" can fail but is in no self-contact: its pieces "
+                         "pass through each other, and bear no friction");
+  }
 }
 
 void Scene::build_outputs()

@@ -164,7 +164,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[2])
 
     def test_a_rigid_projectile_on_1_and_2_ranks(self):
-        scene = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        scene = os.path.join(SOURCE, "tests/scenes/rigid-projectile.prm")
         histories = []
         for ranks in (1, 2):
             out = folder("rigid%d" % ranks)
@@ -710,7 +710,7 @@ class Scenes(unittest.TestCase):
         # Cells erode before the checkpoint and after it.
         coarse = ("--set", "Bodies/plate/Cell size=2.5 mm", "--set",
                   "End time=9 us", "--set", "Outputs/fields/Interval=9 us")
-        rigid = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        rigid = os.path.join(SOURCE, "tests/scenes/rigid-projectile.prm")
         materials = os.path.join(SOURCE, "tests/scenes/materials.prm")
         b_bar = ("--set", "Bodies/plate/Integration=B-bar", "--set",
                  "Bodies/plate/Objective rate=Green-Naghdi")
@@ -794,7 +794,7 @@ class Scenes(unittest.TestCase):
         coarse = ("--set", "Bodies/upper/Cell size=1.2 mm", "--set",
                   "Bodies/lower/Cell size=1.2 mm")
         erosion = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")
-        rigid = os.path.join(SOURCE, "prm/perforation/rigid-projectile.prm")
+        rigid = os.path.join(SOURCE, "tests/scenes/rigid-projectile.prm")
         for scene, settings in (
                 (QUICK, ("--set", "End time=15 us")), (taylor, coarse),
                 (erosion, ("--set", "Bodies/plate/Cell size=2.5 mm", "--set",

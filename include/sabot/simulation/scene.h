@@ -120,6 +120,8 @@ private:
    * their host.
    */
   void build_couplings();
+  /** Of bodies that can fail and are in no self-contact. */
+  void warn_of_lone_debris();
   void build_outputs();
   void build_quantities();
   /** Of "List of <list>"; empty where the entry is. */
