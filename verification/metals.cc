@@ -55,11 +55,11 @@ void with_section(const std::string &name,
     overrides.push_back(from.path + "/" + change);
   Parameters prm;
   {
-    const Entered section(prm, "Materials", from.own);
+    const EnteredSubsection section(prm, "Materials", from.own);
     Material::declare_parameters(prm);
   }
   ParameterFile(from.file.file_name, overrides).parse_into(prm);
-  const Entered section(prm, "Materials", from.own);
+  const EnteredSubsection section(prm, "Materials", from.own);
   use(prm, from.path);
 }
 } // namespace

@@ -325,7 +325,7 @@ Pipes turn(const HexMesh &leader, const HexMesh &follower)
     result.energy =
         std::max(result.energy, std::abs(world.total_energy() / energy - 1.));
     for (std::size_t i = 0; i < followers.n_owned; ++i)
-      if (followers.inertia[i] == 0.)
+      if (followers.is_follower(i))
         result.interface_motion = std::max(
             result.interface_motion,
             norm(followers.position[i] - followers.reference_position[i]));

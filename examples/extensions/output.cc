@@ -34,7 +34,7 @@ std::string to_csv(const History::Table &table)
   return text.str();
 }
 
-class CsvOutput : public Output
+class CsvOutput : public SceneOutput
 {
 public:
   /** The run appends a row to every table before each write. The tables are
@@ -69,7 +69,7 @@ protected:
   }
 };
 
-const Registry<Output>::Add
+const Registry<SceneOutput>::Add
     registered({"CSV", "averages and energies as text in csv.", nullptr,
                 [](const Parameters &, const std::string &)
                 { return std::make_unique<CsvOutput>(); }});

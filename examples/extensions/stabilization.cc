@@ -65,7 +65,7 @@ std::vector<double> ResidualDamping::damping(const SpgParts &body) const
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       S += bonds.weight[b];
     // A tied follower goes where its leader takes it.
-    ratio[i] = S > 0. && nodes.inertia[i] > 0. ? nodes.lumped_mass[i] / S : 0.;
+    ratio[i] = S > 0. && !nodes.is_follower(i) ? nodes.lumped_mass[i] / S : 0.;
   }
   body.exchange.update(ratio.data());
   std::vector<double> k(nodes.n_owned);

@@ -37,7 +37,7 @@ void VelocityConstraints::accumulate_work(const NodalState &nodes,
     return;
   for (const Held &h : held)
     // A tied follower is moved by its leaders, whatever is prescribed.
-    if (norm_square(h.value) > 0. && nodes.inertia[h.node] > 0.)
+    if (norm_square(h.value) > 0. && !nodes.is_follower(h.node))
       done.add(-half_dt * dot(nodes.force[h.node], h.value));
 }
 } // namespace sabot

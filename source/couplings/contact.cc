@@ -74,7 +74,7 @@ void Contact::add_forces(const double dt)
 {
   halo.update();
   forces.clear();
-  if (dt <= 0.)
+  if (!is_step(dt))
     return settle();
   points.clear();
   touched.clear();

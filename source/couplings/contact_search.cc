@@ -254,7 +254,7 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
                surface.node_share.empty() ? 1. : surface.node_share[k]);
   else if (body.particles() != nullptr)
     for (const std::size_t i : body.particles()->debris().nodes)
-      if (nodes.inertia[i] > 0.) // followers stay with their leaders
+      if (!nodes.is_follower(i)) // followers stay with their leaders
         try_node(i, 1.);
 }
 

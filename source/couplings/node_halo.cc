@@ -101,8 +101,7 @@ void NodeHalo::update()
     velocity[s] = nodes.velocity[i];
     // A tied follower moves with its leaders; its own mass is a safe (low)
     // measure of what resists.
-    inertia[s] =
-        nodes.inertia[i] > 0. ? nodes.inertia[i] : nodes.lumped_mass[i];
+    inertia[s] = nodes.is_follower(i) ? nodes.lumped_mass[i] : nodes.inertia[i];
   }
   exchange.update(position.data());
   exchange.update(velocity.data());

@@ -238,7 +238,7 @@ void ParticleContact::press(const std::size_t number, const double dt)
   n_deep += standing.is_deep && at.node < halo.n_owned();
   if (standing.fade > 0.)
     memory.side = standing.normal;
-  if (dt <= 0.)
+  if (!is_step(dt))
   {
     if (standing.gap > -1e-6 * group.spacing)
       memory.release();

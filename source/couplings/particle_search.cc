@@ -108,7 +108,7 @@ void ParticleSearch::find_mine(const Body &body, const std::int32_t number,
     particle.is_on_surface = point.spacing > 0.;
     particle.is_open = is_loose[i] || particle.is_on_surface;
     // Tied followers are inside of what they are tied to.
-    if (nodes.inertia[i] > 0.)
+    if (!nodes.is_follower(i))
     {
       particle.reach = std::sqrt(2.) * reach * point.spacing + skin;
       particle.to_unit = view.volume_point(i).to_unit;

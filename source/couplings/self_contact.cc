@@ -236,7 +236,7 @@ void SelfContact::add_forces(const double dt)
 {
   halo.update();
   forces.clear();
-  if (dt <= 0.)
+  if (!is_step(dt))
     return;
   soften(dt);
   points.clear();

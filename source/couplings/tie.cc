@@ -51,7 +51,7 @@ void Tie::initialize()
   for (const Term &term : forces)
     leads.inertia[term.local] += term.weight * mass[term.slot];
   for (const std::size_t i : owned_followers)
-    followers.inertia[i] = 0.;
+    followers.make_follower(i);
 }
 
 void Tie::prepare_motion(const std::vector<Constraint> &constraints)

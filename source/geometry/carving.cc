@@ -90,7 +90,7 @@ bool ZoneShape::contains(const std::array<double, 3> &point) const
   for (int d = 0; d < 3; ++d)
   {
     const double x = (point[d] - center[d]) / (0.5 * size[d]);
-    if (axis >= 0 && d != axis)
+    if (axis && d != *axis)
       square += x * x;
     else if (!(std::abs(x) < 1.))
       return false;

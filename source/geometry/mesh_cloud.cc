@@ -119,8 +119,7 @@ void add_faces(const HexMesh &mesh, ParticleCloud &cloud)
     if (id >= ParticleCloud::n_faces)
       continue;
     while (cloud.face_axis.size() <= id)
-      cloud.face_axis.push_back(
-          plane_axis(mesh, cloud.face_axis.size()).value_or(-1));
+      cloud.face_axis.push_back(plane_axis(mesh, cloud.face_axis.size()));
     for (const GlobalIndex a : mesh.boundary_faces[f])
       cloud.on_face[a] |= 1u << id;
   }

@@ -31,7 +31,7 @@ void CentralDifference::kick(const double dt)
   {
     NodalState &nodes = body->nodes();
     for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      if (nodes.inertia[i] > 0.)
+      if (!nodes.is_follower(i))
         nodes.velocity[i] += (dt / nodes.inertia[i]) * nodes.force[i];
   }
 }

@@ -7,7 +7,7 @@ namespace sabot
 {
 namespace
 {
-class HistoryOutput : public Output
+class HistoryOutput : public SceneOutput
 {
 public:
   bool needs_rows() const override { return true; }
@@ -21,7 +21,7 @@ protected:
   }
 };
 
-const Registry<Output>::Add
+const Registry<SceneOutput>::Add
     registered({"history", "averages and energies in history.h5.", nullptr,
                 [](const Parameters &, const std::string &)
                 { return std::make_unique<HistoryOutput>(); }});

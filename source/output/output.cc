@@ -6,25 +6,26 @@
 
 namespace sabot
 {
-void Output::declare_parameters(Parameters &prm, const std::string &type)
+void SceneOutput::declare_parameters(Parameters &prm, const std::string &type)
 {
-  Registry<Output>::declare_choice(prm, "Type", "VTU", "");
+  Registry<SceneOutput>::declare_choice(prm, "Type", "VTU", "");
   prm.declare_entry("Interval", "5 us", quantity(Dimension::time, 1e-15, 1e3),
                     "Time between two writes; the end is always written.");
-  Registry<Output>::declare_entries(prm, type);
+  Registry<SceneOutput>::declare_entries(prm, type);
 }
 
-std::unique_ptr<Output> Output::make(const Parameters &prm,
-                                     const std::string &path)
+std::unique_ptr<SceneOutput> SceneOutput::make(const Parameters &prm,
+                                               const std::string &path)
 {
-  std::unique_ptr<Output> output =
-      Registry<Output>::get(path + "/Type", prm.get("Type")).make(prm, path);
+  std::unique_ptr<SceneOutput> output =
+      Registry<SceneOutput>::get(path + "/Type", prm.get("Type"))
+          .make(prm, path);
   output->interval = get_quantity(prm, "Interval");
   return output;
 }
 
-void Output::write_when_due(const OutputMoment &moment, const double slack,
-                            RunFiles &files)
+void SceneOutput::write_when_due(const OutputMoment &moment, const double slack,
+                                 RunFiles &files)
 {
   if (moment.is_last || is_due(moment.time, slack))
     write(moment, files);
@@ -32,7 +33,7 @@ void Output::write_when_due(const OutputMoment &moment, const double slack,
     next += interval;
 }
 
-void Output::visit_state(StateVisitor &visitor, const std::string &name)
+void SceneOutput::visit_state(StateVisitor &visitor, const std::string &name)
 {
   visitor.visit_value(name, next);
 }

@@ -7,7 +7,7 @@ namespace sabot
 {
 namespace
 {
-class VtuOutput : public Output
+class VtuOutput : public SceneOutput
 {
 public:
   bool writes_fields() const override { return true; }
@@ -23,7 +23,7 @@ protected:
   }
 };
 
-const Registry<Output>::Add
+const Registry<SceneOutput>::Add
     registered({"VTU", "fields of all bodies for ParaView.", nullptr,
                 [](const Parameters &, const std::string &)
                 { return std::make_unique<VtuOutput>(); }});

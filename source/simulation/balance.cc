@@ -9,12 +9,12 @@
 
 namespace sabot
 {
-Balance::Balance(const Scene &scene, MPI_Comm communicator)
+EnergyBalance::EnergyBalance(const Scene &scene, MPI_Comm communicator)
     : scene(scene), communicator(communicator)
 {
 }
 
-double Balance::total_energy()
+double EnergyBalance::total_energy()
 {
   EnergyLedger e;
   for (const auto &body : scene.bodies)
@@ -32,7 +32,7 @@ double Balance::total_energy()
   return total;
 }
 
-void Balance::start()
+void EnergyBalance::start()
 {
   initial_energy = total_energy();
   largest_energy = std::abs(initial_energy);
@@ -45,7 +45,7 @@ void Balance::start()
   }
 }
 
-void Balance::fill_row(const double time, const double dt)
+void EnergyBalance::fill_row(const double time, const double dt)
 {
   const double total = total_energy();
   const double scale = std::max(largest_energy, std::abs(total));
@@ -54,7 +54,7 @@ void Balance::fill_row(const double time, const double dt)
   ledger.push_back({"residual", "1", last});
 }
 
-void Balance::look(const double time, const double dt)
+void EnergyBalance::look(const double time, const double dt)
 {
   fill_row(time, dt);
   largest_energy =
@@ -66,7 +66,7 @@ void Balance::look(const double time, const double dt)
     largest_momentum = std::max(largest_momentum, momentum_residual());
 }
 
-double Balance::momentum_residual() const
+double EnergyBalance::momentum_residual() const
 {
   std::array<double, 3> change = {
       {-initial_momentum[0], -initial_momentum[1], -initial_momentum[2]}};
@@ -83,7 +83,7 @@ double Balance::momentum_residual() const
              : 0.;
 }
 
-void Balance::check(const double limit, const std::string &limiter) const
+void EnergyBalance::check(const double limit, const std::string &limiter) const
 {
   if (last <= limit)
     return;
@@ -108,7 +108,7 @@ void Balance::check(const double limit, const std::string &limiter) const
   throw PhysicsError(text + limiter);
 }
 
-void Balance::visit_state(StateVisitor &visitor)
+void EnergyBalance::visit_state(StateVisitor &visitor)
 {
   visitor.visit_value("initial energy", initial_energy);
   visitor.visit_value("largest energy", largest_energy);

@@ -20,7 +20,7 @@ BodyAssembly::discretization_of(const std::string &body) const
   return Registry<Discretization>::get(path, file.value(path, "FEM")).make();
 }
 
-std::unique_ptr<Shape> BodyAssembly::shape_of(const std::string &body) const
+std::unique_ptr<BodyShape> BodyAssembly::shape_of(const std::string &body) const
 {
   const std::string path = "Bodies/" + body + "/Geometry";
   return make_shape(path, file.value(path, "box"));
@@ -40,7 +40,7 @@ void BodyAssembly::find_carvings(const std::vector<std::string> &names)
 {
   for (const std::string &name : names)
   {
-    const Entered entered(prm, "Bodies", name);
+    const EnteredSubsection entered(prm, "Bodies", name);
     const std::string from = discretization_of(name)->carved_from(prm),
                       path = "Bodies/" + name + "/Carve from";
     if (from.empty())
@@ -88,7 +88,7 @@ void BodyAssembly::carve_meshes()
       continue;
     double size = 0.;
     {
-      const Entered entered(prm, "Bodies", c.body);
+      const EnteredSubsection entered(prm, "Bodies", c.body);
       size = discretization_of(c.body)->cell_size(prm);
       const NamedMesh whole = make_mesh("Bodies/" + c.body, size, &c);
       CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
@@ -98,7 +98,7 @@ void BodyAssembly::carve_meshes()
       if (!shape_of(c.body)->follows_cell_size())
         size = make_mesh_cloud(cells[c.zone].mesh).spacing[0];
     }
-    const Entered entered(prm, "Bodies", c.zone);
+    const EnteredSubsection entered(prm, "Bodies", c.zone);
     discretization_of(c.zone)->follow_spacing(prm, file, "Bodies/" + c.zone,
                                               size);
     cell_size[c.zone] = size;
@@ -127,7 +127,7 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
                                               const int id)
 {
   const std::string path = "Bodies/" + name;
-  const Entered entered(prm, "Bodies", name);
+  const EnteredSubsection entered(prm, "Bodies", name);
   const auto material = materials.find(prm.get("Material"));
   if (material == materials.end())
   {

@@ -118,7 +118,7 @@ std::vector<double> wave_distances(const Scene &scene, const std::size_t body,
 /** Time between energy checks is the run's over this (as in run.cc). */
 constexpr double n_checks = 200.;
 
-double n_outputs(const Output &output, const double end)
+double n_outputs(const SceneOutput &output, const double end)
 {
   return std::floor(end / output.period() * (1. + 1e-9)) + 1.;
 }

@@ -179,7 +179,7 @@ void add_resources(ordered_json &r, MPI_Comm communicator)
 } // namespace
 
 ordered_json make_result(const Scene &scene, const RunSummary &summary,
-                         const Balance &balance, const Timers &timers,
+                         const EnergyBalance &balance, const Timers &timers,
                          const std::vector<ZoneVerdict> &zones,
                          MPI_Comm communicator)
 {

@@ -57,7 +57,7 @@ void Scene::build_materials(const ParameterFile &file)
 {
   for (const std::string &name : file.subsections("Materials"))
   {
-    const Entered entered(prm, "Materials", name);
+    const EnteredSubsection entered(prm, "Materials", name);
     auto material = Material::make(prm, "Materials/" + name);
     material->name = name;
     warnings.insert(warnings.end(), material->warnings.begin(),
@@ -76,7 +76,7 @@ void Scene::build_couplings()
   std::vector<Listed> listed; // in the order of building
   for (const std::string &name : names_of("couplings"))
   {
-    const Entered entered(prm, "Couplings", name);
+    const EnteredSubsection entered(prm, "Couplings", name);
     const std::string type = prm.get("Type");
     listed.push_back({name, Registry<CouplingBuilder>::get(
                                 "Couplings/" + name + "/Type", type)
@@ -96,7 +96,7 @@ void Scene::build_couplings()
   std::vector<std::unique_ptr<Coupling>> last;
   for (const Listed &item : listed)
   {
-    const Entered entered(prm, "Couplings", item.name);
+    const EnteredSubsection entered(prm, "Couplings", item.name);
     auto &list = item.builder->acts_last() ? last : couplings;
     for (auto &coupling :
          item.builder->build(prm, "Couplings/" + item.name, item.name, context))
@@ -133,8 +133,8 @@ void Scene::build_outputs()
 {
   for (const std::string &name : names_of("outputs"))
   {
-    const Entered entered(prm, "Outputs", name);
-    outputs.push_back(Output::make(prm, "Outputs/" + name));
+    const EnteredSubsection entered(prm, "Outputs", name);
+    outputs.push_back(SceneOutput::make(prm, "Outputs/" + name));
   }
 }
 
@@ -142,7 +142,7 @@ void Scene::build_quantities()
 {
   for (const std::string &name : names_of("quantities"))
   {
-    const Entered entered(prm, "Quantities", name);
+    const EnteredSubsection entered(prm, "Quantities", name);
     const std::string path = "Quantities/" + name;
     const auto body = [&](const std::string &entry) -> const Body &
     { return *bodies[body_index(path + "/" + entry, prm.get(entry))]; };

@@ -50,7 +50,7 @@ void declare_body(Parameters &prm, const std::string &discretization,
 {
   Registry<Discretization>::declare_knob(prm, "Discretization",
                                          standard_discretization, "");
-  Registry<Shape>::declare_choice(
+  Registry<BodyShape>::declare_choice(
       prm, "Geometry", "box",
       "Shape of the body, with the same entries for FEM, SPG and rigid "
       "bodies.");
@@ -62,9 +62,9 @@ void declare_body(Parameters &prm, const std::string &discretization,
   prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
                     quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
-  Registry<Shape>::declare_entries(prm, geometry);
+  Registry<BodyShape>::declare_entries(prm, geometry);
   // Of a shape that there is not reading the file will tell.
-  const auto *const chosen = Registry<Shape>::find(geometry);
+  const auto *const chosen = Registry<BodyShape>::find(geometry);
   const auto shape = chosen == nullptr ? nullptr : chosen->make();
   if (const auto *const d = Registry<Discretization>::find(discretization))
     d->make()->declare(prm, shape.get());
@@ -151,7 +151,7 @@ void declare_bodies(Parameters &prm, const ParameterFile *file)
   // many times: each once, with a box or as finite elements, says all.
   std::vector<std::string> names;
   std::vector<std::pair<std::string, std::string>> kinds;
-  for (const auto &shape : Registry<Shape>::entries())
+  for (const auto &shape : Registry<BodyShape>::entries())
     kinds.emplace_back(standard_discretization, shape.name);
   for (const auto &d : Registry<Discretization>::entries())
     if (d.name != standard_discretization)
@@ -184,7 +184,7 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
       prm, file, "Outputs", {"<name>"},
       [&](const std::string &path, const std::string &)
       {
-        Output::declare_parameters(
+        SceneOutput::declare_parameters(
             prm, file == nullptr ? "" : file->value(path + "/Type", "VTU"));
       });
   declare_products<QuantityOfInterest, false>(prm, file, "Quantities",

@@ -54,7 +54,7 @@ Pairs excused_pairs(const Scene &scene, const ParameterFile &file)
                       leader = file.value(path + "/Leader", "");
     const auto is_box = [&](const std::string &body)
     {
-      const auto *const shape = Registry<Shape>::find(
+      const auto *const shape = Registry<BodyShape>::find(
           file.value("Bodies/" + body + "/Geometry", "box"));
       return shape != nullptr && shape->make()->fills_bounds();
     };

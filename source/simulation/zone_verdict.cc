@@ -29,7 +29,7 @@ struct Reach
 
   void add(const ZoneBox &box, const Point &x)
   {
-    if (box.axis >= 0)
+    if (box.axis)
       radius = std::max(radius, box.radius_of(x));
     distance = std::min(distance, box.distance_from_tie(x));
     for (int d = 0; d < 3; ++d)
@@ -65,7 +65,7 @@ std::pair<Point, Point> smallest_box(const ZoneBox &zone, const Reach &reach)
     // Nothing happened: a block of a few particles stays.
     double down = empty ? center - gap : reach.low[d] - gap,
            up = empty ? center + gap : reach.high[d] + gap;
-    if (zone.axis >= 0 && d != zone.axis)
+    if (zone.axis && d != *zone.axis)
     {
       down = center - reach.radius - gap;
       up = center + reach.radius + gap;
@@ -108,7 +108,7 @@ double ZoneBox::distance_from_tie(const Point &x) const
     {
       if (!(upper ? tied_high[d] : tied_low[d]))
         continue;
-      const bool radial = axis >= 0 && d != axis;
+      const bool radial = axis && d != *axis;
       const double depth = (radial  ? 0.5 * (high[d] - low[d]) - radius_of(x)
                             : upper ? high[d] - x[d]
                                     : x[d] - low[d]) /
@@ -140,8 +140,8 @@ std::vector<ZoneBox> find_zones(const Scene &scene)
       side =
           side || (d != zone.axis && (zone.tied_low[d] || zone.tied_high[d]));
     }
-    if (zone.axis >= 0)
-      for (const int d : {(zone.axis + 1) % 3, (zone.axis + 2) % 3})
+    if (zone.axis)
+      for (const int d : {(*zone.axis + 1) % 3, (*zone.axis + 2) % 3})
         zone.tied_low[d] = zone.tied_high[d] = side;
     zones.push_back(zone);
   }
@@ -220,7 +220,7 @@ std::vector<ZoneVerdict> judge_zones(const Scene &scene, const Timers &timers,
         n_cells *= box.size[d] / zone.spacing[d];
         n_cells_now *= (zone.high[d] - zone.low[d]) / zone.spacing[d];
       }
-      if (zone.axis >= 0) // perhaps a sector of it: by volume
+      if (zone.axis) // perhaps a sector of it: by volume
       {
         box.n_particles = verdict.n_particles * n_cells / n_cells_now;
         n_cells = box.n_particles;

@@ -172,7 +172,7 @@ void write_scatter(const StudyResults &results, std::ostream &html)
        << head("quantity", true) << head("parameters", true) << head("runs")
        << head("mean") << head("standard deviation") << head("range")
        << "</tr>\n";
-  for (const Scatter &s : results.scatter)
+  for (const RepeatScatter &s : results.scatter)
     html << "<tr>" << cell(results.study.quantities[s.quantity].name, true)
          << cell(s.others, true) << cell(std::to_string(s.n))
          << cell(number(s.mean)) << cell(number(s.deviation, "%.3g"))

@@ -178,7 +178,7 @@ void StudyResults::find_scatter(const std::size_t q)
   {
     if (values.size() < 2)
       continue;
-    Scatter s;
+    RepeatScatter s;
     s.quantity = q;
     const std::string words = study.label({choice, "", {}, ""});
     s.others = words.empty() ? "base" : words;

@@ -25,7 +25,7 @@ public:
   {
     prm.declare_entry("Center", "1 mm, 2 mm, 3 mm",
                       quantities(Dimension::length, 3, 3), "");
-    Registry<Shape>::declare_entries(prm, shape);
+    Registry<BodyShape>::declare_entries(prm, shape);
     this->shape->declare_grading(prm);
     file.parse_into(prm);
   }
@@ -39,7 +39,7 @@ public:
     return shape->mesh(request);
   }
 
-  const std::unique_ptr<Shape> shape;
+  const std::unique_ptr<BodyShape> shape;
   Parameters prm;
 
 private:
@@ -80,7 +80,7 @@ TEST(Shapes, each_has_its_volume_and_named_faces)
     const std::string words = make_shape("", name)->face_names();
     EXPECT_EQ(words.substr(0, made.faces[0].size()), made.faces[0]) << name;
   }
-  EXPECT_EQ(Registry<Shape>::entries().size(), expected.size() + 1);
+  EXPECT_EQ(Registry<BodyShape>::entries().size(), expected.size() + 1);
 }
 
 TEST(Shapes, a_sector_names_its_cut_planes)

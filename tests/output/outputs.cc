@@ -18,14 +18,14 @@ using namespace sabot;
 class Outputs : public TemporaryFolder
 {
 protected:
-  std::unique_ptr<Output> make(const std::string &type,
-                               const std::string &interval)
+  std::unique_ptr<SceneOutput> make(const std::string &type,
+                                    const std::string &interval)
   {
     Parameters prm;
-    Output::declare_parameters(prm, type);
+    SceneOutput::declare_parameters(prm, type);
     EXPECT_TRUE(prm.set("Type", type));
     EXPECT_TRUE(prm.set("Interval", interval));
-    return Output::make(prm, "Outputs/some");
+    return SceneOutput::make(prm, "Outputs/some");
   }
   bool is_there(const std::string &file)
   {
@@ -36,7 +36,7 @@ protected:
 TEST_F(Outputs, are_found_by_name)
 {
   std::vector<std::string> names;
-  for (const auto &entry : Registry<Output>::entries())
+  for (const auto &entry : Registry<SceneOutput>::entries())
     names.push_back(entry.name);
   EXPECT_EQ(names, (std::vector<std::string>{"VTU", "history"}));
 }

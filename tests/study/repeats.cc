@@ -69,7 +69,7 @@ TEST(Repeats, scatter_convergence_and_ballistic_curve)
   }
   const StudyResults results(study, outcomes);
   ASSERT_EQ(results.scatter.size(), 12u);
-  for (const Scatter &s : results.scatter)
+  for (const RepeatScatter &s : results.scatter)
   {
     EXPECT_EQ(s.n, 2u);
     EXPECT_NEAR(s.range, 2., 1e-9);

@@ -111,7 +111,7 @@ public:
   /** Path and value of all knobs, in the order of their declaration. */
   std::vector<std::pair<std::string, std::string>> knobs();
   /** Go down into the subsection @p name of the present one, which comes into
-      being with its first entry; and up again. See Entered. */
+      being with its first entry; and up again. See EnteredSubsection. */
   void enter_subsection(const std::string &name);
   void leave_subsection();
 
@@ -141,22 +141,23 @@ private:
 
 /** Enters Section/name of the parameters while it lives: also an exception
     leaves them again. */
-class Entered
+class EnteredSubsection
 {
 public:
-  Entered(Parameters &prm, const std::string &section, const std::string &name)
+  EnteredSubsection(Parameters &prm, const std::string &section,
+                    const std::string &name)
       : prm(prm)
   {
     prm.enter_subsection(section);
     prm.enter_subsection(name);
   }
-  ~Entered()
+  ~EnteredSubsection()
   {
     prm.leave_subsection();
     prm.leave_subsection();
   }
-  Entered(const Entered &) = delete;
-  Entered &operator=(const Entered &) = delete;
+  EnteredSubsection(const EnteredSubsection &) = delete;
+  EnteredSubsection &operator=(const EnteredSubsection &) = delete;
 
 private:
   Parameters &prm;

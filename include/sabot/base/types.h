@@ -72,6 +72,15 @@ struct AlignedAllocator
  */
 template <typename T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+
+/** In place of a step dt [s]: nothing moves, only forces are asked for, as at
+    the start and after a kernel update. */
+constexpr double no_step = 0.;
+/** Whether @p dt is a step in which something moves. */
+constexpr bool is_step(const double dt)
+{
+  return dt > no_step;
+}
 } // namespace sabot
 
 #endif

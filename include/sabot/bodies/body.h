@@ -209,7 +209,7 @@ public:
       After every drift, before compute_forces(). Collective. */
   virtual void update_ghosts() = 0;
   /** Set force of every owned node to external - internal - stabilization.
-      @p dt is the step that led to the current positions (0 at the start).
+      @p dt is the step that led to the current positions, no_step at the start.
       Collective. */
   virtual void compute_forces(const double time, const double dt) = 0;
   /** Largest stable step seen from this rank, in the current state. [s],

@@ -24,7 +24,7 @@ struct BodyRequest
   std::string path, name; // "Bodies/plate", "plate"
   int id;                 // number among the bodies
   std::shared_ptr<const Material> material;
-  const Shape &shape;
+  const BodyShape &shape;
   /** Checked mesh of the shape with about this cell size [m], around the zone
       that another body takes from it, if any. */
   std::function<NamedMesh(const double cell_size)> mesh;
@@ -51,7 +51,7 @@ public:
       say which by @p shape, which is null where the shape is not known.
       Called before values are read, and for the reference of entries, where
       no scene is known. */
-  virtual void declare(Parameters &prm, const Shape *shape) const = 0;
+  virtual void declare(Parameters &prm, const BodyShape *shape) const = 0;
   /** The body; not collective. Throws InputError, by the entry. Every rank
       builds the whole body, with all nodes; Body::distribute() then keeps a
       part. */
@@ -75,7 +75,7 @@ public:
 };
 
 /** The names of a shape's faces in words; empty where there is no shape. */
-inline std::string face_names(const Shape *const shape)
+inline std::string face_names(const BodyShape *const shape)
 {
   return shape == nullptr ? "" : shape->face_names();
 }

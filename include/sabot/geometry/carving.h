@@ -3,6 +3,7 @@
 
 #include "sabot/geometry/hex_mesh.h"
 
+#include <optional>
 #include <string>
 
 namespace sabot
@@ -13,7 +14,7 @@ struct ZoneShape
 {
   std::array<double, 3> center{{0., 0., 0.}}; // [m]
   std::array<double, 3> size{{0., 0., 0.}};   // [m], of a cylinder's bounds
-  int axis = -1;                              // of a cylinder; -1: a box
+  std::optional<int> axis;                    // of a cylinder; nothing: a box
 
   /** Whether the point is inside; not on the surface, to round-off. */
   bool contains(const std::array<double, 3> &point) const;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sabot
@@ -30,8 +31,9 @@ struct ParticleCloud
     Vec area;
   };
   std::vector<FaceShare> face_shares;
-  /** Axis across which the face of each boundary id is a plane, -1: none. */
-  std::vector<int> face_axis{0, 0, 1, 1, 2, 2};
+  /** Axis across which the face of each boundary id is a plane; nothing where
+     it is none. */
+  std::vector<std::optional<int>> face_axis{0, 0, 1, 1, 2, 2};
   /**
    * Size and directions of the lattice around each particle [m]: the symmetric
    * matrix S that maps the unit ball to the ellipsoid through the neighbors a

@@ -50,12 +50,12 @@ struct ShapeRequest
  * function that declares its entries, and at the end its registration. Manual,
  * menus and messages follow.
  */
-class Shape
+class BodyShape
 {
 public:
   static constexpr const char *kind = "shape";
-  using Make = std::unique_ptr<Shape>();
-  virtual ~Shape() = default;
+  using Make = std::unique_ptr<BodyShape>();
+  virtual ~BodyShape() = default;
 
   /** The names of the faces in words, for the meaning of entries that list
       faces; known before the parameters are. */
@@ -100,10 +100,10 @@ public:
 };
 
 /** The shape that the entry @p path, of the value @p name, chooses. */
-inline std::unique_ptr<Shape> make_shape(const std::string &path,
-                                         const std::string &name)
+inline std::unique_ptr<BodyShape> make_shape(const std::string &path,
+                                             const std::string &name)
 {
-  return Registry<Shape>::get(path, name).make();
+  return Registry<BodyShape>::get(path, name).make();
 }
 } // namespace sabot
 

@@ -25,31 +25,31 @@ struct OutputMoment
  * What a run leaves at intervals of physical time. A new one is one file: a
  * class that writes, its entries, and on its last line its registration,
  *
- *     const Registry<Output>::Add registered(
+ *     const Registry<SceneOutput>::Add registered(
  *         {"VTU", "fields of all bodies for ParaView.", nullptr, make});
  *
  * Its entries stand beside "Type" and "Interval", which all outputs have. At
  * the start and at the end everything is written, in between where the
  * multiples of the interval fall due; the step is not cut to meet them.
  */
-class Output
+class SceneOutput
 {
 public:
   static constexpr const char *kind = "output";
   /** Makes one from the present subsection, whose path is @p path, for
       messages; InputError. */
-  using Make = std::unique_ptr<Output>(const Parameters &prm,
-                                       const std::string &path);
+  using Make = std::unique_ptr<SceneOutput>(const Parameters &prm,
+                                            const std::string &path);
 
-  virtual ~Output() = default;
+  virtual ~SceneOutput() = default;
 
   /** Declares the entries of one output in the present subsection: those of
       all, and those of @p type; of all types where there is no such type, as
       the manual shows them. */
   static void declare_parameters(Parameters &prm, const std::string &type);
   /** The output that the present subsection describes. InputError. */
-  static std::unique_ptr<Output> make(const Parameters &prm,
-                                      const std::string &path);
+  static std::unique_ptr<SceneOutput> make(const Parameters &prm,
+                                           const std::string &path);
 
   /** Whether a write falls due at @p time, up to @p slack (both [s]); the
       same on every rank. */

@@ -18,11 +18,11 @@ namespace sabot
  *   momentum: |sum m v + p_eroded - p_0|/sum sqrt(2 E_kin m),
  * both pure numbers. Zero where nothing moves.
  */
-class Balance
+class EnergyBalance
 {
 public:
   /** The scene is kept by reference, and may still be without state. */
-  Balance(const Scene &scene, MPI_Comm communicator);
+  EnergyBalance(const Scene &scene, MPI_Comm communicator);
 
   /**
    * Take the present values for those that must stay. Collective.

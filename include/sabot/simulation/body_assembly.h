@@ -68,7 +68,7 @@ private:
   std::unique_ptr<Discretization>
   discretization_of(const std::string &body) const;
   /** By the entry "Geometry" of the file, a box where there is none. */
-  std::unique_ptr<Shape> shape_of(const std::string &body) const;
+  std::unique_ptr<BodyShape> shape_of(const std::string &body) const;
 
   Parameters &prm;
   const ParameterFile &file;

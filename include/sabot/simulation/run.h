@@ -90,7 +90,7 @@ private:
   /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
   /**
-   * Balance, then a row for the ledger, each body and the quantities.
+   * EnergyBalance, then a row for the ledger, each body and the quantities.
    * Collective.
    */
   void record();
@@ -127,7 +127,7 @@ private:
   Log log;
   Timers timers;
   Stepper stepper;
-  Balance balance;
+  EnergyBalance balance;
   RunFiles files;
   CheckpointFolder checkpoints;
   CheckpointSchedule schedule;

@@ -40,11 +40,10 @@ struct RunSummary
  * over ranks. The momentum residual is null where something holds a body from
  * outside. Of fragments the twenty heaviest stand in it.
  */
-nlohmann::ordered_json make_result(const Scene &scene,
-                                   const RunSummary &summary,
-                                   const Balance &balance, const Timers &timers,
-                                   const std::vector<ZoneVerdict> &zones,
-                                   MPI_Comm communicator);
+nlohmann::ordered_json
+make_result(const Scene &scene, const RunSummary &summary,
+            const EnergyBalance &balance, const Timers &timers,
+            const std::vector<ZoneVerdict> &zones, MPI_Comm communicator);
 } // namespace sabot
 
 #endif

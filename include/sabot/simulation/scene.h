@@ -19,7 +19,7 @@ namespace sabot
 /**
  * Scalars of a scene.
  * In SI. @p step_factor is that of the least stable step, below 1 for the
- * nonlinear part; @p energy_limit bounds the residual of Balance, a pure
+ * nonlinear part; @p energy_limit bounds the residual of EnergyBalance, a pure
  * number.
  */
 struct RunSettings
@@ -100,7 +100,7 @@ public:
   RunSettings settings;
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<std::unique_ptr<Coupling>> couplings; // ties last
-  std::vector<std::unique_ptr<Output>> outputs;
+  std::vector<std::unique_ptr<SceneOutput>> outputs;
   std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
   std::vector<std::string> warnings;

@@ -5,6 +5,7 @@
 #include "sabot/simulation/scene.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct ZoneBox
   int zone, host; // bodies
   std::array<double, 3> low, high, spacing;
   std::array<bool, 3> tied_low, tied_high;
-  int axis = -1; // of a cylinder with the bounds low, high; -1: a box
+  /** Of a cylinder with the bounds low, high; nothing: a box. */
+  std::optional<int> axis;
 
   /** Distance of a point from the axis of a cylinder [m]. */
   double radius_of(const std::array<double, 3> &x) const;

@@ -62,7 +62,7 @@ struct ConvergenceSeries
 };
 
 /** Runs that are repeats of each other. */
-struct Scatter
+struct RepeatScatter
 {
   std::size_t quantity;
   std::string others; // what the parameters are, in words
@@ -100,7 +100,7 @@ struct StudyResults
   std::vector<StudyOutcome> outcomes;         // per run
   std::vector<ErrorReference> references;     // per quantity
   std::vector<ConvergenceSeries> convergence; // spacings only, means of repeats
-  std::vector<Scatter> scatter;               // where runs are repeated
+  std::vector<RepeatScatter> scatter;         // where runs are repeated
   std::vector<BallisticSeries> ballistic;     // where it is asked for
   std::vector<std::vector<Price>> prices;     // per quantity
   std::vector<std::vector<std::size_t>> fronts; // per quantity: runs

@@ -202,7 +202,7 @@ SABOT_IN_LOOP double BBar::stable_step(const CellConstants &constants,
                      (cell.volume * std::max(0., constants.lambda) * trace_G +
                       2. * constants.mu * cell.shear_bound));
   const double mean_trace = cell.expansion / cell.middle_volume,
-               closing = dt > 0. ? std::max(0., -mean_trace / dt) : 0.,
+               closing = is_step(dt) ? std::max(0., -mean_trace / dt) : 0.,
                J_mean = cell.volume / reference_volume;
   q = density / J_mean * thickness * closing *
       (c1 * c + c2 * thickness * closing);

@@ -31,7 +31,7 @@ double typical_cell_size(const HexMesh &mesh)
 class FiniteElements : public Discretization
 {
 public:
-  void declare(Parameters &prm, const Shape *const shape) const override
+  void declare(Parameters &prm, const BodyShape *const shape) const override
   {
     const std::string faces = face_names(shape);
     prm.declare_knob("Symmetry faces", "", name_list(),

@@ -113,9 +113,9 @@ void Hexahedra::update_points(const std::size_t begin, const std::size_t m,
 {
   if (!polar_rotation.empty())
     polar_spin(begin, m, batch);
-  if (dt > 0.)
+  if (is_step(dt))
     update_stress(begin, m, dt, batch);
-  const bool stiffens = dt > 0. && material->stiffens();
+  const bool stiffens = is_step(dt) && material->stiffens();
   const std::size_t end = std::min(begin + m, size() * n_points);
   for (std::size_t point = begin; point < end; point += n_points)
   {

@@ -9,7 +9,7 @@ namespace
 class Rigid : public Discretization
 {
 public:
-  void declare(Parameters &prm, const Shape *) const override
+  void declare(Parameters &prm, const BodyShape *) const override
   {
     prm.declare_knob("Cell size", "1 mm",
                      quantity(Dimension::length, 1e-9, 1e2),

@@ -19,7 +19,7 @@ ParticleSurface::ParticleSurface(const ParticleCloud &cloud,
 {
   for (unsigned int face = 0; face < ParticleCloud::n_faces; ++face)
     if (symmetry_faces & 1u << face &&
-        (face >= face_axis.size() || face_axis[face] < 0))
+        (face >= face_axis.size() || !face_axis[face]))
       throw InputError(path + "/Symmetry faces",
                        "these faces do not lie in one plane across the x, y "
                        "or z axis; a symmetry plane must");
@@ -29,7 +29,7 @@ ParticleSurface::ParticleSurface(const ParticleCloud &cloud,
         if (cloud.on_face[i] & 1u << face)
         {
           symmetry_planes.push_back(
-              {face_axis[face], cloud.position[i][face_axis[face]]});
+              {*face_axis[face], cloud.position[i][*face_axis[face]]});
           break;
         }
 }
@@ -79,7 +79,7 @@ unsigned int ParticleSurface::symmetry_axes(const std::size_t i) const
   unsigned int axes = 0;
   for (std::size_t face = 0; face < face_axis.size(); ++face)
     if (on_face[i] & symmetry_faces & 1u << face)
-      axes |= 1u << face_axis[face];
+      axes |= 1u << *face_axis[face];
   return axes;
 }
 
@@ -121,7 +121,7 @@ SurfacePoint ParticleSurface::point(const std::size_t i, const Mat &F,
 }
 
 VolumePoint particle_volume(const std::size_t i, const ParticleFields &fields,
-                            const Approximation &approximation,
+                            const ParticleApproximation &approximation,
                             const LagrangianKernel &kernel)
 {
   // 1.75 spacings: half of the space is filled within 0.005 spacings of a

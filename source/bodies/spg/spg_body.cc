@@ -232,7 +232,7 @@ void SpgBody::update_kernel_and_forces(const unsigned int step)
   for (std::size_t i = 0; i < n; ++i)
     added[i] = nodal_state.force[i] - fields.own_force[i];
   update_kernel(step);
-  evaluate_forces(0.); // no problem where nothing is deformed yet
+  evaluate_forces(no_step); // no problem where nothing is deformed yet
   for (std::size_t i = 0; i < n; ++i)
     nodal_state.force[i] += added[i];
 }

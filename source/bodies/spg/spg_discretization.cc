@@ -30,7 +30,7 @@ std::uint32_t face_bits(const BodyRequest &request, const std::string &entry,
 class Particles : public Discretization
 {
 public:
-  void declare(Parameters &prm, const Shape *const shape) const override
+  void declare(Parameters &prm, const BodyShape *const shape) const override
   {
     const std::string faces = face_names(shape);
     prm.declare_knob("Symmetry faces", "", name_list(),

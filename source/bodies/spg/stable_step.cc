@@ -26,7 +26,7 @@ namespace
 /** Mass by which a node's force moves it: a tied follower has its own. */
 double moving_mass(const NodalState &nodes, const std::size_t i)
 {
-  return nodes.inertia[i] > 0. ? nodes.inertia[i] : nodes.lumped_mass[i];
+  return nodes.is_follower(i) ? nodes.lumped_mass[i] : nodes.inertia[i];
 }
 
 /** Sums over J of V_J sum |g_J| |g_JI|: rows of K over rho c^2 [1/m]. */
@@ -34,7 +34,7 @@ std::vector<double> gradient_row_sums(const SpgParts &body)
 {
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
-  const Approximation &functions = body.approximation;
+  const ParticleApproximation &functions = body.approximation;
   const Vec *const X = body.fields.kernel_reference_position.data();
   AlignedVector<Mat> inverse_moment(body.nodes.size());
   struct Share

@@ -10,7 +10,7 @@ const std::array<const char *, 6> box_faces = {
 
 namespace
 {
-class Box : public Shape
+class Box : public BodyShape
 {
 public:
   static void declare(Parameters &prm)
@@ -104,7 +104,7 @@ private:
   }
 };
 
-const Registry<Shape>::Add box({"box", "of any edge lengths.", Box::declare,
-                                [] { return std::make_unique<Box>(); }});
+const Registry<BodyShape>::Add box({"box", "of any edge lengths.", Box::declare,
+                                    [] { return std::make_unique<Box>(); }});
 } // namespace
 } // namespace sabot

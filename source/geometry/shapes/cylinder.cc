@@ -7,7 +7,7 @@ namespace sabot
 {
 namespace
 {
-class Cylinder : public Shape
+class Cylinder : public BodyShape
 {
 public:
   static void declare(Parameters &prm)
@@ -65,7 +65,7 @@ public:
     zone.center = get_vector(prm, "Center");
     zone.axis = axis_of(prm);
     zone.size.fill(2. * get_quantity(prm, "Radius"));
-    zone.size[zone.axis] = get_quantity(prm, "Length");
+    zone.size[*zone.axis] = get_quantity(prm, "Length");
     return zone;
   }
 
@@ -104,7 +104,7 @@ private:
   }
 };
 
-const Registry<Shape>::Add
+const Registry<BodyShape>::Add
     cylinder({"cylinder", "along an axis, whole or a sector of it.",
               Cylinder::declare, [] { return std::make_unique<Cylinder>(); }});
 } // namespace

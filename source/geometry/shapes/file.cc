@@ -26,7 +26,7 @@ std::string beside(const ParameterFile &file, const std::string &path,
   return std::filesystem::absolute(relative).string();
 }
 
-class File : public Shape
+class File : public BodyShape
 {
 public:
   static void declare(Parameters &prm)
@@ -77,8 +77,8 @@ private:
   }
 };
 
-const Registry<Shape>::Add file({"file", "a mesh of hexahedra from a file.",
-                                 File::declare,
-                                 [] { return std::make_unique<File>(); }});
+const Registry<BodyShape>::Add file({"file", "a mesh of hexahedra from a file.",
+                                     File::declare,
+                                     [] { return std::make_unique<File>(); }});
 } // namespace
 } // namespace sabot

@@ -6,7 +6,7 @@ namespace sabot
 {
 namespace
 {
-class Projectile : public Shape
+class Projectile : public BodyShape
 {
 public:
   static void declare(Parameters &prm)
@@ -48,7 +48,7 @@ public:
   }
 };
 
-const Registry<Shape>::Add projectile(
+const Registry<BodyShape>::Add projectile(
     {"projectile", "a cylinder with a conical, ogival or spherical nose.",
      Projectile::declare, [] { return std::make_unique<Projectile>(); }});
 } // namespace

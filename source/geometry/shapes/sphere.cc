@@ -6,7 +6,7 @@ namespace sabot
 {
 namespace
 {
-class Sphere : public Shape
+class Sphere : public BodyShape
 {
 public:
   static void declare(Parameters &prm)
@@ -25,7 +25,8 @@ public:
   }
 };
 
-const Registry<Shape>::Add sphere({"sphere", "a ball.", Sphere::declare,
-                                   [] { return std::make_unique<Sphere>(); }});
+const Registry<BodyShape>::Add sphere({"sphere", "a ball.", Sphere::declare,
+                                       []
+                                       { return std::make_unique<Sphere>(); }});
 } // namespace
 } // namespace sabot

@@ -240,7 +240,7 @@ SABOT_IN_LOOP Pack OnePointLoop<Form>::stable_step(
       2. / pack_sqrt(8. * cells.J / density *
                      (std::max(0., constants.lambda) * trace_G +
                       2. * constants.mu * largest));
-  const double rate_factor = dt > 0. ? 1. / dt : 0.;
+  const double rate_factor = is_step(dt) ? 1. / dt : 0.;
   const Pack zero = {};
   const Pack closing = pack_max(zero, -rate_factor * trace);
   store_pack(&batch.viscous_pressure[k],

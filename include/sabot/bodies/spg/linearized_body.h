@@ -68,7 +68,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
   // comes down to sums over bonds with constant factors.
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
-  const Approximation &functions = body.approximation;
+  const ParticleApproximation &functions = body.approximation;
   const Vec *const X = body.fields.kernel_reference_position.data();
   const double *const volume = body.fields.kernel_reference_volume.data();
   const ElasticResponse stress(body.points.law());

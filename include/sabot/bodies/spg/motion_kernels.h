@@ -199,11 +199,11 @@ inline void follow_motion(const ParticleRange &range, const MotionViews &in,
 
     const double compression = largest_stretch_square(F_inverse);
     double step = step_as_stiff_as_now(in, i, compression);
-    const double rate = dt > 0. ? trace(l) / dt : 0.;
+    const double rate = is_step(dt) ? trace(l) / dt : 0.;
     const double h = std::min(std::cbrt(V * J), 2. * c * step);
     // Without a step that of the last one stays.
     out.viscous_pressure[k] = in.viscous_pressure[i];
-    if (dt > 0.)
+    if (is_step(dt))
     {
       out.viscous_pressure[k] =
           bulk_viscosity_pressure(in.density * V0 / (V * J), c, h, rate,

@@ -7,12 +7,13 @@
 #include "sabot/geometry/particle_cloud.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace sabot
 {
-class Approximation;
+class ParticleApproximation;
 class LagrangianKernel;
 struct ParticleFields;
 struct SpgOptions;
@@ -68,7 +69,8 @@ private:
       each. */
   unsigned int symmetry_axes(const std::size_t i) const;
 
-  const std::vector<int> face_axis; // across each boundary id, -1: not a plane
+  /** Across each boundary id; nothing: not a plane. */
+  const std::vector<std::optional<int>> face_axis;
   const std::uint32_t symmetry_faces;
   std::vector<SymmetryPlane> symmetry_planes;
   std::vector<std::uint32_t> on_face; // owned
@@ -81,7 +83,7 @@ private:
     to_unit|, as the integral of the cubic spline over the unit ball is
     pi/12. */
 VolumePoint particle_volume(const std::size_t i, const ParticleFields &fields,
-                            const Approximation &approximation,
+                            const ParticleApproximation &approximation,
                             const LagrangianKernel &kernel);
 } // namespace sabot
 

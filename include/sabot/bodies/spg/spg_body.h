@@ -212,7 +212,7 @@ private:
   ParticleFields fields;
   MaterialPoints points;
   LagrangianKernel kernel;
-  Approximation approximation;
+  ParticleApproximation approximation;
   ParticleSurface surface;
   std::unique_ptr<Stabilization> stabilization;
   BondFailure failure;

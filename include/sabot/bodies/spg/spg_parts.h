@@ -10,7 +10,7 @@
 
 namespace sabot
 {
-class Approximation;
+class ParticleApproximation;
 class BondFailure;
 class BondList;
 class GhostExchange;
@@ -96,8 +96,8 @@ struct SpgParts
   MaterialPoints &points; // stress and state, one point a particle
   /** Spacings and support of the start, limits of the update. */
   const LagrangianKernel &kernel;
-  const Approximation &approximation; // moments or stored gradients
-  BondFailure &failure;               // failed bonds and what they let go
+  const ParticleApproximation &approximation; // moments or stored gradients
+  BondFailure &failure; // failed bonds and what they let go
   /** Rule for particles that lost a direction; has scratch space, so one a
       body. */
   ResidualStrength &residual_strength;

@@ -19,7 +19,7 @@ namespace sabot
 MotionViews motion_views(SpgParts &body, const double dt);
 
 /** Third stage: rotation, law (or what failed metal carries) and work of the
-    particles of @p range over @p dt > 0. MaterialPoints::rotate(), the law's
+    particles of @p range over a step @p dt. MaterialPoints::rotate(), the law's
     update() of the batch, MaterialPoints::finish(). Where a particle of the
     range lost a direction, the rule for failed metal (ResidualStrength)
     stands in for the law and counts what cracks let go [J]. Laws that need F
@@ -159,7 +159,7 @@ void spg_step(SpgParts &body, Form &form, const double dt)
     // The stabilization's trial stress, which shares the yield condition.
     form.trial(range, body);
     // Material: rotation, law, work.
-    if (dt > 0.)
+    if (is_step(dt))
       update_stress(range, body, dt);
     else
       std::fill_n(work.return_factor, range.size(), 1.);

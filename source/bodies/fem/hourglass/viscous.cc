@@ -36,8 +36,9 @@ public:
     // gamma_a = h_a - p.B_a: in a flattened, crooked cell the part along B is
     // large. There the viscosity stops at what ends the motion of the h in a
     // step, and that along B, which strains the cell as well, in four.
-    const Pack strongest = (dt > 0. ? 0.125 * constants.density / dt : any) *
-                           cells.g.volume / (8. + 4. * overlap);
+    const Pack strongest =
+        (is_step(dt) ? 0.125 * constants.density / dt : any) * cells.g.volume /
+        (8. + 4. * overlap);
     const Pack bounded = pack_min(coefficient, strongest);
     Pack rate[3][4];
     for (int i = 0; i < 3; ++i)

@@ -107,10 +107,10 @@ private:
 };
 } // namespace
 
-void Approximation::find_gradients(const BondList &bonds,
-                                   const ParticleFields &fields,
-                                   const LagrangianKernel &kernel,
-                                   AlignedVector<Mat> *const second_derivatives)
+void ParticleApproximation::find_gradients(
+    const BondList &bonds, const ParticleFields &fields,
+    const LagrangianKernel &kernel,
+    AlignedVector<Mat> *const second_derivatives)
 {
   has_tensor_kernel ? find_gradients_with<TensorKernel>(bonds, fields, kernel,
                                                         second_derivatives)
@@ -119,7 +119,7 @@ void Approximation::find_gradients(const BondList &bonds,
 }
 
 template <typename Kernel>
-void Approximation::find_gradients_with(
+void ParticleApproximation::find_gradients_with(
     const BondList &bonds, const ParticleFields &fields,
     const LagrangianKernel &kernel,
     AlignedVector<Mat> *const second_derivatives)
@@ -167,8 +167,9 @@ void Approximation::find_gradients_with(
     bonds.update_ghosts(second_derivatives->data());
 }
 
-void Approximation::set_convex_masses(NodalState &nodes, const BondList &bonds,
-                                      const GhostExchange &exchange)
+void ParticleApproximation::set_convex_masses(NodalState &nodes,
+                                              const BondList &bonds,
+                                              const GhostExchange &exchange)
 {
   has_masses = true;
   std::vector<double> nodal_mass(nodes.lumped_mass);

@@ -19,22 +19,23 @@ constexpr double lost_fraction = 0.15;
 constexpr std::size_t least_bonds = 4;
 } // namespace
 
-Approximation::Approximation(const SpgOptions &options)
+ParticleApproximation::ParticleApproximation(const SpgOptions &options)
     : functions(options.approximation), stores(options.stores_gradients()),
       has_tensor_kernel(options.has_tensor_kernel())
 {
 }
 
-void Approximation::allocate(const std::size_t n_owned)
+void ParticleApproximation::allocate(const std::size_t n_owned)
 {
   moment_inverse.resize(n_owned);
   lost_direction.resize(n_owned);
   spread.resize(n_owned);
 }
 
-void Approximation::update(BondList &bonds, const ParticleFields &fields,
-                           const LagrangianKernel &kernel,
-                           AlignedVector<Mat> *const second_derivatives)
+void ParticleApproximation::update(BondList &bonds,
+                                   const ParticleFields &fields,
+                                   const LagrangianKernel &kernel,
+                                   AlignedVector<Mat> *const second_derivatives)
 {
   has_tensor_kernel ? find_moments<TensorKernel>(bonds, fields)
                     : find_moments<SphericalKernel>(bonds, fields);
@@ -43,7 +44,8 @@ void Approximation::update(BondList &bonds, const ParticleFields &fields,
 }
 
 template <typename Kernel>
-void Approximation::find_moments(BondList &bonds, const ParticleFields &fields)
+void ParticleApproximation::find_moments(BondList &bonds,
+                                         const ParticleFields &fields)
 {
   const bool intact = intact_eigenvalue.empty();
   const std::size_t n = moment_inverse.size();
@@ -97,7 +99,8 @@ void Approximation::find_moments(BondList &bonds, const ParticleFields &fields)
   }
 }
 
-void Approximation::visit_bonds(StateVisitor &visitor, const BondList &bonds)
+void ParticleApproximation::visit_bonds(StateVisitor &visitor,
+                                        const BondList &bonds)
 {
   if (!stores)
     return;
@@ -108,7 +111,7 @@ void Approximation::visit_bonds(StateVisitor &visitor, const BondList &bonds)
     bonds.update_ghosts(shape_gradient.data());
 }
 
-void Approximation::visit_state(StateVisitor &visitor)
+void ParticleApproximation::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("moment inverse", moment_inverse);
   visitor.visit_array("weak", lost_direction);

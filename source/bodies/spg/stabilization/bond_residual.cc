@@ -182,7 +182,7 @@ void BondResidual::begin_kernel_update(const SpgParts &body)
 
 void BondResidual::follow_functions(const SpgParts &body)
 {
-  const Approximation &functions = body.approximation;
+  const ParticleApproximation &functions = body.approximation;
   const double mu = body.points.law().shear_modulus();
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
@@ -199,7 +199,7 @@ void BondResidual::end_kernel_update(const SpgParts &body,
                                      const std::vector<char> &was_lost)
 {
   const BondList &bonds = body.bonds;
-  const Approximation &functions = body.approximation;
+  const ParticleApproximation &functions = body.approximation;
   const Vec *const X = body.fields.kernel_reference_position.data();
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {

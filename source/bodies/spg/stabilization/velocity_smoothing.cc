@@ -45,7 +45,7 @@ LinearFunction find_function(const SpgParts &body, const std::size_t j,
   const BondList &bonds = body.bonds;
   Eigen::Matrix4d M = Eigen::Matrix4d::Zero();
   M(0, 0) = 2. / 3.;
-  bool is_free = nodes.inertia[j] > 0.;
+  bool is_free = !nodes.is_follower(j);
   for (std::size_t b = bonds.begin(j); b < bonds.end(j); ++b)
   {
     const Vec dx =

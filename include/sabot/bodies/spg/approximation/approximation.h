@@ -34,10 +34,10 @@ struct ParticleFields;
  * Frame: X, not the present configuration; weights do not change between
  * updates.
  */
-class Approximation
+class ParticleApproximation
 {
 public:
-  explicit Approximation(const SpgOptions &options);
+  explicit ParticleApproximation(const SpgOptions &options);
 
   void allocate(const std::size_t n_owned);
   /** Weights of bonds, moments, lost directions, and where they are stored

@@ -17,8 +17,8 @@ struct SpgParts;
  * p the mean and s the deviator of the stress, V the volume at the last kernel
  * update, is counted as lost [J]. Local to the rank.
  *
- * Called at the end of a kernel update, when Approximation::update() has found
- * which directions are gone.
+ * Called at the end of a kernel update, when ParticleApproximation::update()
+ * has found which directions are gone.
  *
  * K and G are those at rest. Stress in the present frame, changed in place; the
  * loss is added to BondFailure::loss.

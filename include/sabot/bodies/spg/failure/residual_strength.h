@@ -18,7 +18,7 @@ struct ParticleDamage
   std::uint32_t n_failed = 0; // bonds that failed so far
   std::size_t n_bonds = 0;    // that are left
   /** Its remaining bonds no longer span space, or have not closed yet
-      (Approximation::lost_direction). */
+      (ParticleApproximation::lost_direction). */
   bool lost_direction = false;
   /** One of its bonds failed while its own measure of failure exceeded the
       critical value: the metal here has failed, not only beside it. Stays. */
