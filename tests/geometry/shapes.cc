@@ -96,7 +96,7 @@ TEST(Shapes, zones_are_boxes_and_whole_cylinders)
   Body box("box", {"Size = 1 mm, 2 mm, 3 mm"});
   const auto zone = box.shape->zone(box.prm, "Bodies/b");
   ASSERT_TRUE(zone.has_value());
-  EXPECT_EQ(zone->axis, -1);
+  EXPECT_FALSE(zone->axis);
   EXPECT_DOUBLE_EQ(zone->size[2], 3e-3);
 
   Body cylinder("cylinder", {"Axis = x", "Length = 5 mm"});

@@ -158,9 +158,6 @@ public:
   {
     return points.state(name)[i];
   }
-  /** Owned particles whose convex functions did not exist at the last
-      update. */
-  std::size_t n_fallbacks() const { return approximation.n_fallbacks(); }
   std::size_t n_kernel_updates() const { return n_updates; }
   bool has_crumbled(const std::size_t i) const
   {
