@@ -20,8 +20,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 if [ ${#studies[@]} -eq 0 ]; then
-  studies=(projectile-taylor spacing unyielding friction failure-strain zone projectile
-    symmetry physics method projectile-spg projectile-failing)
+  studies=(copper-taylor spacing friction failure-strain zone real weldox)
 fi
 
 code=0
@@ -29,18 +28,12 @@ for study in "${studies[@]}"; do
   settings=()
   if [ $quick = 1 ]; then
     fixed="End time=10 us"
-    [[ $study = projectile-* ]] ||
-      fixed+="; Bodies/projectile/Cell size=2.1 mm; Outputs/fields/Interval=5 us"
     # Spacings and cell sizes that the study itself varies stay as they are.
     case $study in
-    spacing) settings=(--set "Parameters/spacing/Values=2.1 mm; 3.2 mm; 2.5 mm") ;;
-    projectile) fixed="End time=10 us; Bodies/plate/Cell size=2.1 mm; Bodies/core/Nodal spacing=2.1 mm" ;;
-    projectile-taylor) ;;
-    projectile-failing)
-      fixed="End time=10 us"
-      settings=(--set "Parameters/spacing/Values=2.1 mm; 3.2 mm")
-      ;;
-    projectile-spg) fixed="End time=10 us; Bodies/plate/Cell size=2.1 mm; Bodies/core/Nodal spacing=2.1 mm" ;;
+    spacing) settings=(--set "Parameters/spacing/Values=2.1 mm; 3.2 mm") ;;
+    real) settings=(--set "Parameters/spacing/Values=2.1 mm; 3.2 mm") ;;
+    weldox) settings=(--set "Parameters/spacing/Values=3 mm") ;;
+    copper-taylor) fixed+="; Bodies/bar/Nodal spacing=1 mm" ;;
     *) fixed+="; Bodies/plate/Cell size=2.1 mm; Bodies/core/Nodal spacing=2.1 mm" ;;
     esac
     settings+=(--set "Fixed entries=$fixed")
