@@ -163,6 +163,44 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
+    def test_where_metal_fails_on_1_2_and_3_ranks(self):
+        # Crumbled metal finds its neighbors anew; by damage, and by a strain that is
+        # averaged over a length, resumed half-way.
+        scene = os.path.join(SOURCE, "tests/scenes/spg-projectile.prm")
+        for name, settings in (
+                ("length", ("Bodies/core/Nonlocal length=0.8 mm",)),
+                ("damage", ("Bodies/core/Failure criterion=damage",
+                            "Bodies/core/Critical effective plastic strain=never",
+                            "Materials/al6061-t6/Johnson-Cook/Damage=true",
+                            "Bodies/core/Critical damage=0.3"))):
+            with self.subTest(name):
+                options = [word for setting in settings
+                           for word in ("--set", setting)]
+                histories = []
+                for ranks in (1, 2, 3):
+                    out = folder("%s%d" % (name, ranks))
+                    done = sabot("run", scene, "-o", out, "--quiet", *options,
+                                 ranks=ranks)
+                    self.assertEqual(done.returncode, 0, done.stdout)
+                    with open(os.path.join(out, "history.h5"), "rb") as file:
+                        histories.append(file.read())
+                self.assertEqual(histories[0], histories[1])
+                self.assertEqual(histories[0], histories[2])
+                r = result(out)
+                self.assertGreater(r["bodies"]["core"]["bonds_broken_fraction"], 0.01)
+                self.assertGreater(r["energy"]["rubble friction"], 0.)
+                self.assertLess(r["energy_residual_max"], 0.01)
+                every = int(0.8 * r["steps"])
+                parted = folder(name + "-parts")
+                done = sabot("run", scene, "-o", parted, "--quiet", *options, "--set",
+                             "Checkpoint interval in steps=%d" % every, ranks=2)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                os.remove(os.path.join(parted, "history.h5"))
+                done = sabot("resume", parted, "--quiet", ranks=2)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                with open(os.path.join(parted, "history.h5"), "rb") as file:
+                    self.assertEqual(histories[0], file.read())
+
     def test_a_rigid_projectile_on_1_and_2_ranks(self):
         scene = os.path.join(SOURCE, "tests/scenes/rigid-projectile.prm")
         histories = []
