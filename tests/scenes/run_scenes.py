@@ -886,7 +886,7 @@ class Scenes(unittest.TestCase):
                 ("fem-erosion", coarse, "yield = 7.84"),
                 ("fem-erosion", coarse + (
                     "--set", "Bodies/plate/Integration=B-bar"), "cells"),
-                ("rigid-projectile", (), "transits"),
+                ("../../tests/scenes/rigid-projectile", (), "transits"),
                 ("fem-erosion", coarse + (
                     "--set", "Bodies/projectile/Geometry=projectile", "--set",
                     "Bodies/projectile/Nose=conical", "--set",
