@@ -43,7 +43,8 @@ void BondFailure::average_by(std::unique_ptr<ParticleConduction> averaging)
   this->averaging = std::move(averaging);
 }
 
-bool BondFailure::find_measure(const ParticleFields &fields,
+bool BondFailure::find_measure(const BondList &bonds,
+                               const ParticleFields &fields,
                                const MaterialPoints &points,
                                MPI_Comm communicator)
 {
@@ -52,7 +53,8 @@ bool BondFailure::find_measure(const ParticleFields &fields,
     return true;
   double top = 0.;
   for (std::size_t i = 0; i < points.size(); ++i)
-    top = std::max(top, measure[i]);
+    if (bonds.n_bonds(i) > 0) // what is loose drives nobody
+      top = std::max(top, measure[i]);
   MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, communicator);
   if (top <= criterion->critical_value())
     return false;
@@ -70,7 +72,7 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
   measure.resize(nodes.size());
   is_marked.assign(bonds.capacity(), 0);
   crumbles.assign(nodes.n_owned, 0);
-  if (!find_measure(fields, points, communicator))
+  if (!find_measure(bonds, fields, points, communicator))
     return false;
   exchange.update(measure.data());
   // Only bonds with a strained end can fail (their mean exceeds the limit).

@@ -132,8 +132,8 @@ private:
   std::vector<char> is_marked; // per bond, by the last find()
   /** m, or m_bar, of the owned particles into measure. Collective. @return
       false where no bond can fail by it. */
-  bool find_measure(const ParticleFields &fields, const MaterialPoints &points,
-                    MPI_Comm communicator);
+  bool find_measure(const BondList &bonds, const ParticleFields &fields,
+                    const MaterialPoints &points, MPI_Comm communicator);
 
   std::unique_ptr<ParticleConduction> averaging; // only with a length
   bool joins_crumbled = false;
