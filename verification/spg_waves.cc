@@ -30,8 +30,8 @@ double bar_speed()
 
 /** Frequency [1/s] from the @p n-th zero crossing of sum m v . shape, when the
     body starts at rest in shape with the velocity shape. */
-template <typename BodyShape>
-double frequency(World &world, const BodyShape &shape, const int n_crossings,
+template <typename ModeShape>
+double frequency(World &world, const ModeShape &shape, const int n_crossings,
                  const double factor)
 {
   NodalState &n = world.bodies[0]->nodes();

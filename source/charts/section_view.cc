@@ -136,7 +136,7 @@ void choose_plane(const SectionRequest &request,
   for (int d = 0; d < 3; ++d)
     if (std::abs(flight[d]) > std::abs(flight[along]))
       along = d;
-  view.normal = request.normal >= 0 ? request.normal : (along == 1 ? 0 : 1);
+  view.normal = request.normal.value_or(along == 1 ? 0 : 1);
   view.up = along != view.normal ? along : (view.normal + 2) % 3;
   view.right = 3 - view.normal - view.up;
   double bounds[6];

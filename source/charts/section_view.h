@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct SectionRequest
 {
   std::string folder, field, file, title;
   std::vector<double> times; // [s]; empty: the last
-  int normal = -1;           // axis of the plane's normal; -1: chosen
+  std::optional<int> normal; // axis of the plane's normal; nothing: chosen
   bool has_position = false, has_range = false, has_window = false;
   double position = 0.;           // of the plane along its normal [m]
   std::array<double, 2> range{};  // of the colors, SI

@@ -21,7 +21,7 @@ CentralDifference::CentralDifference(
 void CentralDifference::initialize()
 {
   impose_velocities();
-  compute_forces(0.);
+  compute_forces(no_step);
 }
 
 void CentralDifference::kick(const double dt)

@@ -23,7 +23,7 @@ namespace
 {
 using namespace sabot;
 
-class SceneOutput : public TemporaryFolder
+class WrittenOutput : public TemporaryFolder
 {
 protected:
   std::string read(const std::string &file)
@@ -58,7 +58,7 @@ OutputMesh two_cells()
   return mesh;
 }
 
-TEST_F(SceneOutput, hexahedra_are_read_back_by_vtk_to_the_last_bit)
+TEST_F(WrittenOutput, hexahedra_are_read_back_by_vtk_to_the_last_bit)
 {
   VtuWriter writer(folder, MPI_COMM_WORLD);
   const OutputMesh mesh = two_cells();
@@ -85,7 +85,7 @@ TEST_F(SceneOutput, hexahedra_are_read_back_by_vtk_to_the_last_bit)
             std::string::npos);
 }
 
-TEST_F(SceneOutput, particles_and_the_collection)
+TEST_F(WrittenOutput, particles_and_the_collection)
 {
   VtuWriter writer(folder, MPI_COMM_WORLD);
   OutputMesh cloud;
@@ -107,7 +107,7 @@ TEST_F(SceneOutput, particles_and_the_collection)
   EXPECT_NE(pvd.find("part=\"1\""), std::string::npos);
 }
 
-TEST_F(SceneOutput, history_reads_back_and_equal_runs_give_equal_bytes)
+TEST_F(WrittenOutput, history_reads_back_and_equal_runs_give_equal_bytes)
 {
   History history;
   for (int i = 0; i < 5; ++i)
@@ -123,7 +123,7 @@ TEST_F(SceneOutput, history_reads_back_and_equal_runs_give_equal_bytes)
   EXPECT_EQ(back.tables["ledger"].values, history.tables["ledger"].values);
 }
 
-TEST_F(SceneOutput, trouble_with_the_disk_is_an_io_error)
+TEST_F(WrittenOutput, trouble_with_the_disk_is_an_io_error)
 {
   EXPECT_THROW(write_text(folder + "/no/such/folder/x", "text"), IOError);
   EXPECT_THROW(History().write("/proc/history.h5"), IOError);

@@ -52,7 +52,7 @@ void add_registry(RegistryContents (*contents)());
  *
  *     // Friction that does not depend on the pressure.
  *     #include "sabot/base/registry.h"
- *     #include "sabot/couplings/contact/law.h"
+ *     #include "sabot/couplings/friction/friction_law.h"
  *
  *     namespace sabot
  *     {

@@ -32,7 +32,7 @@ struct ParticleCloud
   };
   std::vector<FaceShare> face_shares;
   /** Axis across which the face of each boundary id is a plane; nothing where
-     it is none. */
+      it is none. */
   std::vector<std::optional<int>> face_axis{0, 0, 1, 1, 2, 2};
   /**
    * Size and directions of the lattice around each particle [m]: the symmetric

@@ -90,7 +90,7 @@ private:
   /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
   /**
-   * EnergyBalance, then a row for the ledger, each body and the quantities.
+   * Balance, then a row for the ledger, each body and the quantities.
    * Collective.
    */
   void record();

@@ -53,7 +53,7 @@ public:
   set_up(const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
          const std::vector<std::array<std::uint32_t, 8>> &connectivity) = 0;
   /** Subtract the internal forces of all cells; advance their state by the
-      step @p dt that led here (0 at the start: forces only). f_a -= sum over
+      step @p dt that led here (no_step: forces only). f_a -= sum over
       points V J (sigma - q 1) F^-T B_a + hourglass forces [N], into owned
       and ghost nodes; a rank has all cells of its owned nodes, so theirs are
       complete and ghosts' are not. Also sets smallest_step and, where asked

@@ -33,7 +33,7 @@ public:
   /** Kinematics, stress and forces, batch by batch. What a batch needs stays
       in the first-level cache between the three. Nodal forces are
       -f_internal [N], added to nodes.force; dt [s] leads from the last
-      positions to these, 0 at the start. Cells of other ranks' nodes are
+      positions to these, no_step at the start. Cells of other ranks' nodes are
       here as well, so nothing is exchanged. Throws PhysicsError where a cell
       inverts and the option says stop. */
   void add_forces(NodalState &nodes, const double dt) override

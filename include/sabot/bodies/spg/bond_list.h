@@ -66,8 +66,8 @@ public:
   /** Take over @p rows when ghosts are numbered. @p global_id of all local
       particles, owners of the ghosts. Collective. Rows [n_owned] ascend.
       Weights are zero until ParticleApproximation::update(); origin remembers
-     which bonds were there before, for carry(). Throws std::logic_error where a
-      bond is there from one end only. */
+      which bonds were there before, for carry(). Throws std::logic_error where
+      a bond is there from one end only. */
   void connect(const Rows &rows, const std::vector<GlobalIndex> &global_id,
                const std::vector<int> &ghost_owner, const GlobalIndex n_global,
                MPI_Comm communicator);
@@ -123,8 +123,8 @@ public:
       the other end, ghosts' included. */
   std::vector<std::uint32_t> reverse; // into arrays over n_with_ghosts()
   /** Symmetric weights, set by ParticleApproximation::update(): phi, and phi
-     times the mean of |xi|^2 at both ends over |dX|^2 [1/m^2], the weight in
-     units of the kernel's size. */
+      times the mean of |xi|^2 at both ends over |dX|^2 [1/m^2], the weight in
+      units of the kernel's size. */
   std::vector<double> weight, scaled_weight;
 
   /** Rows, for checkpoints. After overwriting them, call reconnect(). */
