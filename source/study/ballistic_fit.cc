@@ -12,8 +12,9 @@ namespace sabot
 {
 namespace
 {
-/** Up to here a projectile has been stopped [m/s]. */
-constexpr double stopped = 1.;
+/** Residual over impact velocity up to which a projectile has been stopped: it
+    still swings with the plate. */
+constexpr double stopped = 0.02;
 
 double curve(const double a, const double p, const double limit,
              const double impact)
@@ -66,7 +67,7 @@ BallisticFit fit_ballistic(const std::vector<double> &impact,
 {
   std::vector<double> in, out;
   for (std::size_t i = 0; i < impact.size(); ++i)
-    if (residual[i] > stopped)
+    if (residual[i] > stopped * impact[i])
     {
       in.push_back(impact[i]);
       out.push_back(residual[i]);

@@ -29,8 +29,8 @@ struct BallisticFit
  * fewer give no fit.
  *
  * @param impact    [n] impact velocities [m/s], > 0
- * @param residual  [n] residual velocities [m/s]; runs at or below 1 m/s have
- *                  not perforated
+ * @param residual  [n] residual velocities [m/s]; up to 2 % of the impact
+ *                  velocity the projectile has been stopped
  */
 BallisticFit fit_ballistic(const std::vector<double> &impact,
                            const std::vector<double> &residual);
