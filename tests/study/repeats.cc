@@ -43,12 +43,14 @@ end
 
 std::string study_file(std::string contents)
 {
-  std::filesystem::create_directories("repeats");
+  const std::string folder =
+      (std::filesystem::temp_directory_path() / "sabot-repeats").string();
+  std::filesystem::create_directories(folder);
   std::filesystem::copy_file(SABOT_SOURCE_DIR "/tests/scenes/bar.prm",
-                             "repeats/bar.prm",
+                             folder + "/bar.prm",
                              std::filesystem::copy_options::overwrite_existing);
-  std::ofstream("repeats/study.prm") << contents;
-  return "repeats/study.prm";
+  std::ofstream(folder + "/study.prm") << contents;
+  return folder + "/study.prm";
 }
 
 TEST(Repeats, scatter_convergence_and_ballistic_curve)

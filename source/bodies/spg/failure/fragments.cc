@@ -11,6 +11,18 @@
 
 namespace sabot
 {
+namespace
+{
+/** Crumbled metal without cohesion is dust: it holds no two pieces together,
+    also where a sound one still has a bond to it. */
+bool joins_pieces(const BondFailure &failure, const std::size_t i,
+                  const std::uint32_t j)
+{
+  return !(failure.keeps_crumbled() &&
+           (failure.has_crumbled(i) || failure.has_crumbled(j)));
+}
+} // namespace
+
 std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
                                          const BondList &bonds,
                                          const BondFailure &failure,
@@ -30,7 +42,7 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
   };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (bonds.neighbor[b] < n && failure.is_cohesive(i, bonds.neighbor[b]))
+      if (bonds.neighbor[b] < n && joins_pieces(failure, i, bonds.neighbor[b]))
       {
         const std::uint32_t a = root(i), c = root(bonds.neighbor[b]);
         parent[std::max(a, c)] = std::min(a, c);
@@ -45,7 +57,7 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
     exchange.update(label.data());
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-        if (failure.is_cohesive(i, bonds.neighbor[b]) &&
+        if (joins_pieces(failure, i, bonds.neighbor[b]) &&
             label[bonds.neighbor[b]] < label[root(i)])
         {
           label[root(i)] = label[bonds.neighbor[b]];
