@@ -27,11 +27,6 @@ public:
 
   /** Cauchy stress at the start of the step, in the frame of its end [Pa]. */
   double old_stress[n_symmetric][max_batch_points];
-  /** State variable @p row of point @p k at the start of the step. */
-  double old_state(const std::size_t row, const std::size_t k) const
-  {
-    return old_states[row * max_batch_points + k];
-  }
 
 private:
   std::vector<double> old_states; // [row][max_batch_points]
