@@ -1,5 +1,7 @@
 // Failure of bonds: where each criterion fires, and that nothing heals.
 #include "sabot/base/choice.h"
+#include "sabot/base/text.h"
+#include "sabot/materials/johnson_cook.h"
 #include "verification/problem.h"
 #include "verification/world.h"
 
@@ -145,6 +147,34 @@ void critical_stretch(std::vector<Check> &checks)
                     double(wrong), 0., "1", "both conditions are met"});
 }
 
+/** Johnson-Cook's damage: volume first, so that the mean stress is sigma* Y
+    with perfect plasticity, then plastic flow at that triaxiality. */
+template <typename Motion>
+void add_damage(std::vector<Check> &checks, const double triaxiality,
+                const Motion &isochoric)
+{
+  SpgOptions o = inviscid();
+  o.failure_criterion = choose<FailureCriterion>("damage");
+  JohnsonCookParameters p;
+  p.A = aluminum_yield_stress();
+  p.taylor_quinney = 0.;
+  p.has_damage = true;
+  // At the reference rate and room temperature the fracture strain is
+  // D1 + D2 exp(D3 sigma*).
+  p.reference_strain_rate = 1e10;
+  p.D[0] = 0.02;
+  p.D[1] = 0.1;
+  p.D[2] = -1.5;
+  const double volume = triaxiality * p.A / aluminum().bulk_modulus(),
+               strain = p.D[0] + p.D[1] * std::exp(p.D[2] * triaxiality);
+  add_criterion(
+      checks, "damage at triaxiality " + formatted("%.2g", triaxiality), o,
+      std::make_shared<JohnsonCook>(aluminum(), p),
+      strain + p.A / (3. * aluminum().shear_modulus()),
+      "D1 + D2 exp(D3 sigma*) + Y/(3 G)",
+      [&](const double e) { return std::exp(volume / 3.) * isochoric(e); });
+}
+
 std::vector<Check> criteria()
 {
   std::vector<Check> checks;
@@ -177,6 +207,8 @@ std::vector<Check> criteria()
                   elastic(0.33), 1e9 / (K + 4. / 3. * G), "(K + 4 G/3) e",
                   uniaxial);
   }
+  for (const double triaxiality : {0., 1. / 3., -0.5})
+    add_damage(checks, triaxiality, isochoric);
   {
     // Simple shear: ln(l1/l3) = 2 asinh(gamma/2).
     SpgOptions o = inviscid();

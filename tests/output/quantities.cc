@@ -108,32 +108,133 @@ TEST_F(Quantities, of_a_flying_block)
   EXPECT_NEAR(value(r, "absorbed"), 0., 1e-9);
 }
 
+/** Settings of a quantity @p name of @p body along x. */
+std::vector<std::string> quantity(const std::string &name,
+                                  const std::string &type,
+                                  const std::string &body)
+{
+  return {"Quantities/" + name + "/Type=" + type,
+          "Quantities/" + name + "/Body=" + body,
+          "Quantities/" + name + "/Direction=1, 0, 0"};
+}
+
+/** The torn bar with mass and velocity of its plug, its largest piece, and
+    what the block that tears it has given away. */
+std::vector<std::string> asked_of_torn_bar()
+{
+  std::vector<std::string> settings = {
+      "List of quantities=mass, speed, largest, absorbed"};
+  for (const auto &entries :
+       {quantity("mass", "plug mass", "bar"),
+        quantity("speed", "plug velocity", "bar"),
+        quantity("largest", "largest piece velocity", "bar")})
+    settings.insert(settings.end(), entries.begin(), entries.end());
+  settings.push_back("Quantities/absorbed/Type=absorbed energy");
+  settings.push_back("Quantities/absorbed/Body=weight");
+  return settings;
+}
+
+constexpr const char *torn = SABOT_SOURCE_DIR "/tests/scenes/torn.prm";
+
 TEST_F(Quantities, of_a_torn_bar)
 {
-  const auto quantity = [](const std::string &name, const std::string &type)
-  {
-    return std::vector<std::string>{"Quantities/" + name + "/Type=" + type,
-                                    "Quantities/" + name + "/Body=bar",
-                                    "Quantities/" + name +
-                                        "/Direction=1, 0, 0"};
-  };
-  std::vector<std::string> settings = {
-      "List of quantities=mass, speed, largest"};
-  for (const auto &[name, type] :
-       std::vector<std::pair<std::string, std::string>>{
-           {"mass", "plug mass"},
-           {"speed", "plug velocity"},
-           {"largest", "largest piece velocity"}})
-    for (const std::string &setting : quantity(name, type))
-      settings.push_back(setting);
-  const nlohmann::json r =
-      run(SABOT_SOURCE_DIR "/tests/scenes/torn.prm", settings);
+  const nlohmann::json r = run(torn, asked_of_torn_bar());
   const auto &pieces = r["bodies"]["bar"]["fragments"];
   ASSERT_EQ(pieces.size(), 2u);
   EXPECT_EQ(value(r, "largest"), pieces[0]["velocity"][0].get<double>());
   EXPECT_EQ(value(r, "mass"), pieces[1]["mass"].get<double>());
   EXPECT_EQ(value(r, "speed"), pieces[1]["velocity"][0].get<double>());
   EXPECT_GT(value(r, "speed"), 10.);
+  // Nothing but the bar acts on the block.
+  const double mass = 2700. * 36e-9;
+  double square = 0.;
+  for (const auto &v : r["bodies"]["weight"]["velocity"])
+    square += v.get<double>() * v.get<double>();
+  const double lost = 0.5 * mass * (250. * 250. - square);
+  EXPECT_GT(lost, 0.1);
+  EXPECT_NEAR(value(r, "absorbed"), lost, 1e-9 * lost);
+}
+
+TEST_F(Quantities, of_half_a_torn_bar_as_of_the_whole)
+{
+  std::vector<std::string> settings = asked_of_torn_bar();
+  settings.push_back("Bodies/bar/Nodal spacing=0.75 mm");
+  settings.push_back("Bodies/weight/Cell size=0.75 mm");
+  const nlohmann::json whole = run(torn, settings);
+  for (const char *const half :
+       {"Bodies/bar/Size=10 mm, 3 mm, 1.5 mm",
+        "Bodies/bar/Center=-5 mm, 0 mm, 0.75 mm",
+        "Bodies/bar/Symmetry faces=-z", "Bodies/weight/Size=4 mm, 3 mm, 1.5 mm",
+        "Bodies/weight/Center=2 mm, 0 mm, 0.75 mm",
+        "Bodies/weight/Symmetry faces=-z"})
+    settings.push_back(half);
+  const nlohmann::json r = run(torn, settings);
+  const auto &pieces = r["bodies"]["bar"]["fragments"];
+  ASSERT_GE(pieces.size(), 2u);
+  EXPECT_EQ(value(r, "mass"), 2. * pieces[1]["mass"].get<double>());
+  EXPECT_NEAR(value(r, "mass"), value(whole, "mass"),
+              1e-12 * value(whole, "mass"));
+  // Bonds fail at looks between steps, and the steps are not the same.
+  for (const char *const name : {"speed", "absorbed"})
+    EXPECT_NEAR(value(r, name), value(whole, name), 1e-3 * value(whole, name))
+        << name;
+}
+
+/** A plate of cells at rest out of which particles are carved. */
+const char *const carved = R"(
+set End time           = 0.1 us
+set List of bodies     = plate, core
+set List of couplings  = zone
+set List of quantities = hole, filled
+subsection Materials
+  subsection metal
+    set Model           = Elastic
+    set Density         = 2700 kg/m^3
+    set Young's modulus = 70 GPa
+  end
+end
+subsection Bodies
+  subsection plate
+    set Size      = 16 mm, 16 mm, 2 mm
+    set Cell size = 1 mm
+    set Material  = metal
+  end
+  subsection core
+    set Discretization = SPG
+    set Carve from     = plate
+    set Size           = 6 mm, 4 mm, 2 mm
+    set Nodal spacing  = 1 mm
+    set Material       = metal
+    set Initial velocity = 0 m/s, 0 m/s, 0.001 m/s
+  end
+end
+subsection Couplings
+  subsection zone
+    set Type     = tie
+    set Follower = core
+    set Leader   = plate
+  end
+end
+subsection Quantities
+  subsection hole
+    set Type      = hole diameter
+    set Body      = plate
+    set Direction = 0, 0, 1
+  end
+  subsection filled
+    set Type      = hole diameter
+    set Body      = core
+    set Direction = 0, 0, 1
+  end
+end
+)";
+
+TEST_F(Quantities, of_a_carved_hole)
+{
+  std::ofstream(folder + "/carved.prm") << carved;
+  const nlohmann::json r = run(folder + "/carved.prm", {});
+  EXPECT_NEAR(value(r, "hole"), 4e-3, 1e-8); // the nearer faces
+  EXPECT_NEAR(value(r, "filled"), 0., 1e-8);
 }
 } // namespace
 } // namespace sabot
