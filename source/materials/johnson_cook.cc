@@ -37,6 +37,15 @@ double JohnsonCook::fracture_strain(const double triaxiality, const double rate,
   return std::max(strain, flow.p.smallest_fracture_strain);
 }
 
+std::optional<double>
+JohnsonCook::slow_fracture_strain(const double triaxiality) const
+{
+  if (!flow.p.has_damage)
+    return std::nullopt;
+  return fracture_strain(triaxiality, flow.p.reference_strain_rate,
+                         flow.p.initial_temperature);
+}
+
 void JohnsonCook::update_deviator(const MaterialBatch &b,
                                   Scratch &old_strain) const
 {

@@ -66,6 +66,8 @@ std::vector<PlannedBody> find_body_facts(const Scene &scene)
         b.low[d] = std::min(b.low[d], x[d]);
         b.high[d] = std::max(b.high[d], x[d]);
       }
+    for (const SymmetryPlane &plane : body->planes_of_symmetry())
+      b.is_cut[plane.axis] = true;
     bodies.push_back(b);
   }
   return bodies;
@@ -124,7 +126,8 @@ ImpactFacts find_impact(const std::vector<PlannedBody> &bodies)
   impact.radius = never;
   for (int d = 0; d < 3; ++d)
     if (d != impact.axis)
-      impact.radius = std::min(impact.radius, 0.5 * (p.high[d] - p.low[d]));
+      impact.radius = std::min(
+          impact.radius, (p.is_cut[d] ? 1. : 0.5) * (p.high[d] - p.low[d]));
   const double half = 0.5 * impact.speed;
   double yield = never;
   for (const PlannedBody &body : bodies)

@@ -140,9 +140,11 @@ void judge_zones_before(const Scene &scene, PhysicsPlan &plan)
       continue;
     double half = never, spacing = 0.;
     for (int d = 0; d < 3; ++d)
-      if (d != plan.impact.axis && zone.tied_low[d] && zone.tied_high[d])
+      if (d != plan.impact.axis && (zone.tied_low[d] || zone.tied_high[d]))
       {
-        half = std::min(half, 0.5 * (zone.high[d] - zone.low[d]));
+        // Of a half or quarter the center is at the side that is not tied.
+        const bool both = zone.tied_low[d] && zone.tied_high[d];
+        half = std::min(half, (both ? 0.5 : 1.) * (zone.high[d] - zone.low[d]));
         spacing = std::max(spacing, zone.spacing[d]);
       }
     if (half == never)

@@ -323,6 +323,8 @@ TEST(OneElement, johnson_cook_damage)
   // Uniaxial tension of the set at rest: eps_f = D1 + D2 exp(D3/3).
   EXPECT_NEAR(law.fracture_strain(1. / 3., 1., T0),
               D[0] + D[1] * std::exp(D[2] / 3.), 1e-12);
+  // Known before a run: in shear, slow.
+  EXPECT_NEAR(*law.slow_fracture_strain(0.), D[0] + D[1], 1e-12);
   // Hot: factor 1 + D5 T*.
   EXPECT_NEAR(law.fracture_strain(0., 1., 0.5 * (T0 + p.melt_temperature)),
               (D[0] + D[1]) * (1. + 0.5 * D[4]), 1e-9);

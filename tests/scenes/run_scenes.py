@@ -864,6 +864,25 @@ class Scenes(unittest.TestCase):
                 self.assertLess(ratio, 1.5, name)
                 self.assertGreater(ratio, 1 / 1.5, name)
 
+    def test_a_quarter_needs_the_zone_of_the_whole(self):
+        def zone(scene, *settings):
+            file = os.path.join(WORK, "plan.json")
+            done = sabot("plan", os.path.join(SOURCE, "prm", scene), "--json",
+                         file, *settings)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(file) as stream:
+                numbers = json.load(stream)["numbers"]
+            return next(n["value"] for n in numbers
+                        if n["name"].startswith("zone"))
+
+        coarse = ("--set", "Bodies/core/Nodal spacing=2 mm")
+        self.assertAlmostEqual(zone("perforation/quarter.prm", *coarse),
+                               zone("perforation/base.prm", *coarse), 12)
+        # By damage: at the strain that it takes in shear.
+        self.assertGreater(zone("weldox/base.prm", *coarse),
+                           zone("weldox/base.prm", *coarse, "--set",
+                                "Bodies/core/Critical damage=0.1"))
+
     def test_a_plan_warns_of_switches_that_disagree(self):
         done = sabot("plan", QUICK, "--set", "List of couplings=zone, impact",
                      "--set", "Bodies/core/Size=20 mm, 20 mm, 12.7 mm")

@@ -27,8 +27,8 @@ struct BodyFacts
       varies [m]. */
   std::array<double, 3> spacing{};
   bool may_fail = false; // by a criterion, whichever
-  /** Effective plastic strain at which it fails; nothing where another measure
-      decides, or where nothing fails. */
+  /** Effective plastic strain at which it fails, by damage that in shear;
+      nothing where another measure decides, or where nothing fails. */
   std::optional<double> failure_strain;
 };
 } // namespace sabot

@@ -165,6 +165,10 @@ public:
    */
   double fracture_strain(const double triaxiality, const double rate,
                          const double temperature) const;
+  /** fracture_strain() at the reference rate and the initial temperature;
+      nothing without damage. */
+  std::optional<double>
+  slow_fracture_strain(const double triaxiality) const override;
 
 protected:
   std::vector<StateVariable> law_variables() const override;

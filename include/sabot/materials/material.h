@@ -115,6 +115,14 @@ public:
   {
     return std::nullopt;
   }
+  /** Effective plastic strain at which the state "damage" reaches 1, slow, at
+      the initial temperature and a @p triaxiality (mean over von Mises stress)
+      that does not change; nothing for laws that gather no damage. */
+  virtual std::optional<double>
+  slow_fracture_strain(const double /*triaxiality*/) const
+  {
+    return std::nullopt;
+  }
   /** Dilatational wave speed sqrt((K + 4/3 G)/rho) [m/s]. */
   double sound_speed() const;
   /** What the body keeps for each point and hands over as batch.states: one

@@ -42,6 +42,7 @@ struct PlannedBody
    */
   std::optional<double> yield_stress;
   std::array<double, 3> low, high; // bounds of the nodes [m]
+  std::array<bool, 3> is_cut{};    // by a plane of symmetry across this axis
 };
 
 /**

@@ -78,7 +78,8 @@ BodyFacts SpgBody::facts() const
   facts.velocity = options.initial_velocity;
   facts.spacing = kernel.axis_spacing();
   facts.may_fail = options.can_fail();
-  facts.failure_strain = options.failure_criterion->critical_plastic_strain();
+  facts.failure_strain =
+      options.failure_criterion->critical_plastic_strain(points.law());
   return facts;
 }
 

@@ -27,6 +27,14 @@ public:
                        "law with damage, as Johnson-Cook with \"Damage = "
                        "true\" and D1 to D5, or another criterion");
   }
+  std::optional<double>
+  critical_plastic_strain(const Material &law) const override
+  {
+    const std::optional<double> strain = law.slow_fracture_strain(0.);
+    if (!can_be_met() || !strain)
+      return std::nullopt;
+    return critical_value() * *strain;
+  }
   void measure(const MaterialPoints &points, const ParticleFields &,
                double *const value) const override
   {

@@ -7,6 +7,7 @@
 
 namespace sabot
 {
+class Material;
 class MaterialPoints;
 class Parameters;
 struct ParticleFields;
@@ -40,10 +41,12 @@ public:
   /** Only where can_be_met(). */
   double critical_value() const { return *critical; }
 
-  /** The effective plastic strain at which a bond may fail, where that is
-      what the measure is. For estimates before the run; nothing for other
-      measures, or where bonds never fail. */
-  virtual std::optional<double> critical_plastic_strain() const
+  /** The effective plastic strain at which a bond between points of @p law may
+      fail: of damage that in slow shear, where the triaxiality is 0. For
+      estimates before the run; nothing for measures that say nothing of it, or
+      where bonds never fail. */
+  virtual std::optional<double>
+  critical_plastic_strain(const Material & /*law*/) const
   {
     return std::nullopt;
   }
