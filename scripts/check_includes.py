@@ -10,9 +10,10 @@ import sys
 import tempfile
 
 FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
-        "bodies/rigid", "bodies/spg", "couplings", "integrator", "output", "simulation",
+        "bodies/rigid", "bodies/spg", "couplings", "integrator", "loads", "output", "simulation",
         "study", "reference", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
+LOAD = "loads/load.h"
 # Folder: folders or single headers that it may include, besides its own.
 ALLOWED = {
     "kernels": set(),
@@ -26,7 +27,8 @@ ALLOWED = {
     "bodies/rigid": {"base", "kernels", "materials", "geometry", "bodies"},
     "bodies/spg": {"base", "kernels", "materials", "geometry", "bodies"},
     "couplings": {"base", "kernels", BODY},
-    "integrator": {"base", "kernels", BODY, COUPLING},
+    "loads": {"base", "kernels", BODY},
+    "integrator": {"base", "kernels", BODY, COUPLING, LOAD},
     "output": {"base", BODY, COUPLING},
     "simulation": FREE,
     "study": {"base", "output", "simulation"},

@@ -13,13 +13,15 @@
 
 namespace sabot
 {
-/** Bodies and couplings under the integrator, without a scene file. */
+/** Bodies, loads and couplings under the integrator, without a scene file. */
 struct World
 {
   std::vector<std::unique_ptr<Body>> bodies;
+  std::vector<std::unique_ptr<Load>> loads;
   std::vector<std::unique_ptr<Coupling>> couplings;
   Timers timers;
-  Stepper stepper{bodies, couplings, StepLimits(), timers, MPI_COMM_WORLD};
+  Stepper stepper{bodies,       loads,  couplings,
+                  StepLimits(), timers, MPI_COMM_WORLD};
 
   void distribute()
   {
@@ -30,6 +32,8 @@ struct World
           points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
       body->distribute(body->node_owner, MPI_COMM_WORLD);
     }
+    for (auto &load : loads)
+      load->initialize();
     for (auto c = couplings.rbegin(); c != couplings.rend(); ++c)
       (*c)->initialize();
   }
@@ -39,6 +43,27 @@ struct World
     for (auto &body : bodies)
       p.push_back(body.get());
     return p;
+  }
+  /** A load of the kind @p type with these values of its entries, as a scene
+      has it. Before distribute(). */
+  void add_load(const std::string &type,
+                const std::vector<std::pair<std::string, std::string>> &values)
+  {
+    const auto &entry = Registry<Load>::get("Type", type);
+    Parameters prm;
+    entry.declare(prm);
+    for (const auto &value : values)
+      if (!prm.set(value.first, value.second))
+        throw InputError(value.first, "cannot be \"" + value.second + "\"");
+    const auto body = [this](const std::string &, const std::string &name)
+    {
+      for (auto &candidate : bodies)
+        if (candidate->name == name)
+          return candidate.get();
+      throw InputError("Body", "no body is called \"" + name + "\"");
+    };
+    loads.push_back(
+        entry.make({prm, type, type, pointers(), body, MPI_COMM_WORLD}));
   }
   /** One step of @p factor times the stable one. @return its size [s]. */
   double advance(const double factor)
@@ -53,6 +78,8 @@ struct World
     EnergyLedger ledger;
     for (auto &body : bodies)
       body->add_energies(ledger);
+    for (auto &load : loads)
+      load->add_energies(ledger);
     for (auto &coupling : couplings)
       coupling->add_energies(ledger);
     ledger.reduce(MPI_COMM_WORLD);

@@ -29,7 +29,7 @@ const std::array<EnergyTerm, 12> energy_terms = {{
      "the scene, but out of reach of its bodies.",
      &EnergyLedger::eroded},
     {"external", EnergyTerm::Role::supplied,
-     "Work done on the scene from outside, by prescribed motion.",
+     "Work done on the scene from outside, by loads and prescribed motion.",
      &EnergyLedger::external},
     {"plastic work", EnergyTerm::Role::information,
      "Part of internal that plastic flow dissipated.",

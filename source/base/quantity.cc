@@ -33,6 +33,9 @@ const Unit units[] = {
     {Dimension::velocity, "m/s", 1.},
     {Dimension::velocity, "km/s", 1e3},
     {Dimension::velocity, "mm/us", 1e3},
+    {Dimension::acceleration, "m/s^2", 1.},
+    {Dimension::acceleration, "km/s^2", 1e3},
+    {Dimension::acceleration, "mm/us^2", 1e9},
     {Dimension::mass, "kg", 1.},
     {Dimension::mass, "g", 1e-3},
     {Dimension::density, "kg/m^3", 1.},
@@ -68,6 +71,8 @@ const char *dimension_name(const Dimension dimension)
     return "a time";
   case Dimension::velocity:
     return "a velocity";
+  case Dimension::acceleration:
+    return "an acceleration";
   case Dimension::mass:
     return "a mass";
   case Dimension::density:

@@ -11,16 +11,17 @@ namespace sabot
 {
 CentralDifference::CentralDifference(
     std::vector<std::unique_ptr<Body>> &bodies,
+    std::vector<std::unique_ptr<Load>> &loads,
     std::vector<std::unique_ptr<Coupling>> &couplings, Timers &timers,
     MPI_Comm communicator)
-    : bodies(bodies), couplings(couplings), timers(timers),
+    : bodies(bodies), loads(loads), couplings(couplings), timers(timers),
       communicator(communicator)
 {
 }
 
 void CentralDifference::initialize()
 {
-  impose_velocities();
+  impose_velocities(time);
   compute_forces(no_step);
 }
 
@@ -36,10 +37,12 @@ void CentralDifference::kick(const double dt)
   }
 }
 
-void CentralDifference::impose_velocities()
+void CentralDifference::impose_velocities(const double end)
 {
   for (auto &body : bodies)
     body->impose_velocities(time);
+  for (auto &load : loads)
+    load->impose_velocities(time, end);
   const auto timer = timers.scope("tie");
   for (auto &coupling : couplings)
     coupling->impose_kinematics();
@@ -49,6 +52,8 @@ void CentralDifference::accumulate_work(const double half_dt)
 {
   for (auto &body : bodies)
     body->accumulate_work(half_dt);
+  for (auto &load : loads)
+    load->accumulate_work(half_dt);
   for (auto &coupling : couplings)
     coupling->accumulate_work(half_dt);
 }
@@ -56,7 +61,7 @@ void CentralDifference::accumulate_work(const double half_dt)
 void CentralDifference::advance(const double dt)
 {
   kick(0.5 * dt); // v(n+1/2)
-  impose_velocities();
+  impose_velocities(time + dt);
   {
     const auto timer = timers.scope("coupling work");
     accumulate_work(0.5 * dt);
@@ -77,7 +82,7 @@ void CentralDifference::advance(const double dt)
     accumulate_work(0.5 * dt);
   }
   kick(0.5 * dt); // v(n+1)
-  impose_velocities();
+  impose_velocities(time);
 }
 
 void CentralDifference::compute_forces(const double dt)
@@ -100,6 +105,8 @@ void CentralDifference::compute_forces(const double dt)
     }
   }
   agree_on_problems(problem);
+  for (auto &load : loads)
+    load->add_forces(time);
   for (auto &coupling : couplings)
   {
     {

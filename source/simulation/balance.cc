@@ -19,6 +19,8 @@ double EnergyBalance::total_energy()
   EnergyLedger e;
   for (const auto &body : scene.bodies)
     body->add_energies(e);
+  for (const auto &load : scene.loads)
+    load->add_energies(e);
   for (const auto &coupling : scene.couplings)
     coupling->add_energies(e);
   e.reduce(communicator);
@@ -48,7 +50,10 @@ void EnergyBalance::start()
 void EnergyBalance::fill_row(const double time, const double dt)
 {
   const double total = total_energy();
-  const double scale = std::max(largest_energy, std::abs(total));
+  // What came from outside is part of what passed through.
+  largest_energy = std::max({largest_energy, std::abs(total),
+                             std::abs(find_measure(ledger, "external"))});
+  const double scale = largest_energy;
   last = scale > 0. && dt > 0. ? std::abs(total - initial_energy) / scale : 0.;
   ledger.insert(ledger.begin(), {{"time", "s", time}, {"step size", "s", dt}});
   ledger.push_back({"residual", "1", last});
@@ -57,8 +62,6 @@ void EnergyBalance::fill_row(const double time, const double dt)
 void EnergyBalance::look(const double time, const double dt)
 {
   fill_row(time, dt);
-  largest_energy =
-      std::max(largest_energy, std::abs(find_measure(ledger, "total")));
   // Not-a-number stays.
   if (!(last <= largest))
     largest = last;

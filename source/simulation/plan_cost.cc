@@ -72,8 +72,8 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
   const auto start = Clock::now();
   CostPlan plan;
   Timers timers;
-  Stepper stepper(scene.bodies, scene.couplings, step_limits(scene.settings),
-                  timers, communicator);
+  Stepper stepper(scene.bodies, scene.loads, scene.couplings,
+                  step_limits(scene.settings), timers, communicator);
   scene.distribute();
   stepper.initialize();
   plan.set_up_seconds = since(start);
@@ -91,6 +91,8 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     StateSaver saver;
     for (const auto &body : scene.bodies)
       body->visit_state(saver);
+    for (const auto &load : scene.loads)
+      load->visit_state(saver);
     double bytes = 0.;
     for (const StateBlock &saved : saver.blocks)
       bytes += saved.bytes.size();

@@ -49,8 +49,8 @@ StepLimits step_limits(const RunSettings &settings)
 Run::Run(Scene &scene, const std::string &folder, const bool quiet,
          MPI_Comm communicator)
     : scene(scene), communicator(communicator), log(quiet, communicator),
-      stepper(scene.bodies, scene.couplings, step_limits(scene.settings),
-              timers, communicator),
+      stepper(scene.bodies, scene.loads, scene.couplings,
+              step_limits(scene.settings), timers, communicator),
       balance(scene, communicator), files(folder, communicator),
       checkpoints(folder + "/checkpoint", communicator),
       schedule(scene.settings, communicator)

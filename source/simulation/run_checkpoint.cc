@@ -48,6 +48,11 @@ void Run::visit_all(Visitor &visitor)
                     body->name + "\" are spread over the ranks otherwise");
     body->visit_state(visitor);
   }
+  for (const auto &load : scene.loads)
+  {
+    visitor.section = "load " + load->name;
+    load->visit_state(visitor);
+  }
   for (const auto &coupling : scene.couplings)
   {
     visitor.section = "coupling " + coupling->name;

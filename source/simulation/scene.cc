@@ -27,6 +27,7 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
   check_overlaps(*this, file);
+  build_loads();
   build_couplings();
   build_outputs();
   build_quantities();
@@ -63,6 +64,21 @@ void Scene::build_materials(const ParameterFile &file)
     warnings.insert(warnings.end(), material->warnings.begin(),
                     material->warnings.end());
     materials[name] = std::move(material);
+  }
+}
+
+void Scene::build_loads()
+{
+  for (const std::string &name : names_of("loads"))
+  {
+    const EnteredSubsection entered(prm, "Loads", name);
+    const std::string path = "Loads/" + name;
+    const auto body = [&](const std::string &entry, const std::string &value)
+    { return bodies[body_index(path + "/" + entry, value)].get(); };
+    loads.push_back(
+        Registry<Load>::get(path + "/Type", prm.get("Type"))
+            .make({prm, path, name, body_pointers(), body, communicator}));
+    is_free = false;
   }
 }
 
@@ -218,6 +234,8 @@ void Scene::distribute()
     first += n;
     body->distribute(body->node_owner, communicator);
   }
+  for (const auto &load : loads)
+    load->initialize();
   // Ties first: contact wants to know who follows whom.
   for (auto coupling = couplings.rbegin(); coupling != couplings.rend();
        ++coupling)

@@ -39,6 +39,8 @@ void declare_top(Parameters &prm)
                     "time.");
   prm.declare_entry("List of bodies", "", names,
                     "Names of the bodies, in order.");
+  prm.declare_entry("List of loads", "", names,
+                    "Names of the loads: what acts on bodies from outside.");
   prm.declare_knob("List of couplings", "", names, "Names of the couplings.");
   prm.declare_entry("List of outputs", "", names, "Names of the outputs.");
   prm.declare_entry("List of quantities", "", names,
@@ -179,6 +181,7 @@ void Scene::declare(Parameters &prm, const ParameterFile *file)
   declare_top(prm);
   declare_materials(prm, file);
   declare_bodies(prm, file);
+  declare_products<Load, false>(prm, file, "Loads", "gravity");
   declare_products<CouplingBuilder, true>(prm, file, "Couplings", "contact");
   declare_section(
       prm, file, "Outputs", {"<name>"},

@@ -12,13 +12,14 @@ namespace sabot
  */
 enum class Dimension
 {
-  none,     // a pure number: strains, fractions, exponents
-  length,   // [m]
-  time,     // [s]
-  velocity, // [m/s]
-  mass,     // [kg]
-  density,  // [kg/m^3]
-  pressure, // [Pa]; also stresses and moduli
+  none,         // a pure number: strains, fractions, exponents
+  length,       // [m]
+  time,         // [s]
+  velocity,     // [m/s]
+  acceleration, // [m/s^2]
+  mass,         // [kg]
+  density,      // [kg/m^3]
+  pressure,     // [Pa]; also stresses and moduli
   // Absolute, not a difference: 20 degrees of Celsius are no quantity.
   temperature,         // [K]
   specific_heat,       // [J/kg/K]

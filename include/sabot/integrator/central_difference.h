@@ -4,6 +4,7 @@
 #include "sabot/base/timers.h"
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
+#include "sabot/loads/load.h"
 
 #include <mpi.h>
 
@@ -44,6 +45,7 @@ public:
    * initialize().
    */
   CentralDifference(std::vector<std::unique_ptr<Body>> &bodies,
+                    std::vector<std::unique_ptr<Load>> &loads,
                     std::vector<std::unique_ptr<Coupling>> &couplings,
                     Timers &timers, MPI_Comm communicator);
 
@@ -82,13 +84,14 @@ public:
 private:
   /** v += dt force/inertia of owned nodes. */
   void kick(const double dt);
-  /** Bodies at the present time, then couplings. */
-  void impose_velocities();
+  /** Bodies at the present time, loads for the stretch of time from there to
+      @p end, then couplings. */
+  void impose_velocities(const double end);
   /** Of what acts from outside and in couplings, over @p half_dt [s]. */
   void accumulate_work(const double half_dt);
   /**
-   * Of bodies first, whose problems all ranks agree on, then of couplings, each
-   * with its search before.
+   * Of bodies first, whose problems all ranks agree on, then of loads, then of
+   * couplings, each with its search before.
    */
   void compute_forces(const double dt);
   /**
@@ -98,6 +101,7 @@ private:
   void agree_on_problems(const std::string &problem) const;
 
   std::vector<std::unique_ptr<Body>> &bodies;
+  std::vector<std::unique_ptr<Load>> &loads;
   std::vector<std::unique_ptr<Coupling>> &couplings;
   Timers &timers;
   MPI_Comm communicator;

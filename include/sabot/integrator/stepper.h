@@ -36,9 +36,11 @@ class Stepper
 public:
   /** References are kept; @p limits are copied. */
   Stepper(std::vector<std::unique_ptr<Body>> &bodies,
+          std::vector<std::unique_ptr<Load>> &loads,
           std::vector<std::unique_ptr<Coupling>> &couplings,
           const StepLimits &limits, Timers &timers, MPI_Comm communicator)
-      : limits(limits), integrator(bodies, couplings, timers, communicator)
+      : limits(limits),
+        integrator(bodies, loads, couplings, timers, communicator)
   {
   }
 

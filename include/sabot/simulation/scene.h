@@ -5,6 +5,7 @@
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/geometry/carving.h"
+#include "sabot/loads/load.h"
 #include "sabot/materials/material.h"
 #include "sabot/output/output.h"
 #include "sabot/simulation/quantity_of_interest.h"
@@ -47,21 +48,22 @@ struct CarvedZone
 
 /**
  * A scene file, read and checked: what its lists name, built by the registries
- * of bodies, couplings, outputs and quantities. Construction throws InputError
- * with file and line; it changes nothing on disk and is not collective but for
+ * of bodies, loads, couplings, outputs and quantities. Construction throws
+ * InputError with file and line; it changes nothing on disk and is not
+ * collective but for
  * @p communicator, which couplings keep.
  */
 class Scene
 {
 public:
   /**
-   * In this order: settings, materials, bodies with zones, overlaps, couplings,
-   * outputs, quantities. @p file is read only while this runs.
+   * In this order: settings, materials, bodies with zones, overlaps, loads,
+   * couplings, outputs, quantities. @p file is read only while this runs.
    */
   Scene(const ParameterFile &file, MPI_Comm communicator);
 
   /**
-   * Partition all bodies together, distribute them and start the couplings.
+   * Partition all bodies together, distribute them, start loads and couplings.
    * Collective; after this the scene can run.
    * One partition for the points of all bodies, weighted with what a point of
    * each costs; then each body keeps its share, and couplings start from the
@@ -99,14 +101,15 @@ public:
 
   RunSettings settings;
   std::vector<std::unique_ptr<Body>> bodies;
+  std::vector<std::unique_ptr<Load>> loads;         // in the list's order
   std::vector<std::unique_ptr<Coupling>> couplings; // ties last
   std::vector<std::unique_ptr<SceneOutput>> outputs;
   std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
   std::vector<std::string> warnings;
   std::vector<std::string> notes; // old names in the file; what meshes are like
-  /** True where nothing holds a body from outside, so that linear momentum
-      must be constant. */
+  /** True where nothing holds or loads a body from outside, so that linear
+      momentum must be constant. */
   bool is_free = true;
 
 private:
@@ -114,6 +117,8 @@ private:
   void read_settings();
   /** All subsections of "Materials", whether a body uses them or not. */
   void build_materials(const ParameterFile &file);
+  /** Of all kinds, in the order of the list. */
+  void build_loads();
   /**
    * In the order that their builders ask for, equal ones in the list's; those
    * that act last, as ties do, at the end. Warns of zones without a tie to

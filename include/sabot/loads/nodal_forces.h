@@ -1,0 +1,42 @@
+#ifndef sabot_loads_nodal_forces_h
+#define sabot_loads_nodal_forces_h
+
+#include "sabot/base/ledger.h"
+#include "sabot/base/state_visitor.h"
+#include "sabot/bodies/body.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * Forces of a load on some owned nodes of one body, and the work that they do.
+ * The forces are kept, as those of the last step do work along the first half
+ * of the next one. Work is summed per node, so that it costs little and is the
+ * same on any number of ranks. No function is collective.
+ */
+class NodalForces
+{
+public:
+  /** On owned nodes of @p body, local numbers, ascending. */
+  NodalForces(Body &body, std::vector<std::size_t> nodes);
+
+  /** Add the forces to those of the body. */
+  void add();
+  /** Along @p half_dt [s] with the present velocities, half_dt f . v each. */
+  void accumulate_work(const double half_dt);
+  /** Work done so far [J], of owned nodes. */
+  void add_energies(EnergyLedger &ledger) const;
+  void visit_state(StateVisitor &visitor);
+
+  Body &body;
+  const std::vector<std::size_t> nodes;
+  AlignedVector<Vec> force; // [N], parallel to nodes
+
+private:
+  std::vector<double> work; // [J], parallel to nodes
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,37 @@
+// Forces of a load on nodes of a body, and the work that they do.
+#include "sabot/loads/nodal_forces.h"
+
+namespace sabot
+{
+NodalForces::NodalForces(Body &body, std::vector<std::size_t> some_nodes)
+    : body(body), nodes(std::move(some_nodes)), force(nodes.size(), Vec{}),
+      work(nodes.size(), 0.)
+{
+}
+
+void NodalForces::add()
+{
+  NodalState &state = body.nodes();
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    state.force[nodes[k]] += force[k];
+}
+
+void NodalForces::accumulate_work(const double half_dt)
+{
+  const NodalState &state = body.nodes();
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    work[k] += half_dt * dot(force[k], state.velocity[nodes[k]]);
+}
+
+void NodalForces::add_energies(EnergyLedger &ledger) const
+{
+  for (const double w : work)
+    ledger.external.add(w);
+}
+
+void NodalForces::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_array("force of " + body.name, force);
+  visitor.visit_array("work on " + body.name, work);
+}
+} // namespace sabot
