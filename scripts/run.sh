@@ -27,7 +27,8 @@ import json, sys
 result = json.load(open(sys.argv[1]))
 print("Result:  ", result["status"], result["reason"])
 for name, q in result["quantities"].items():
-    print("          %s = %.5g %s" % (name, q["value"], q["unit"]))
+    if q["value"] is not None:
+        print("          %s = %.5g %s" % (name, q["value"], q["unit"]))
 PY
   echo "Folder:   $folder"
   echo "ParaView: $folder/sabot.pvd"

@@ -1,9 +1,11 @@
 // The program: its command line, and what each command calls.
 #include "sabot/base/mpi_session.h"
 #include "sabot/base/parameter_file.h"
+#include "sabot/base/program.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/reference/reference.h"
 #include "sabot/simulation/plan.h"
+#include "sabot/simulation/results_folder.h"
 #include "sabot/simulation/resume.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
@@ -24,6 +26,12 @@
 #include <functional>
 #include <iostream>
 
+namespace sabot
+{
+/** In the file that scripts/revision.cmake writes. */
+std::string source_revision();
+} // namespace sabot
+
 namespace
 {
 using namespace sabot;
@@ -35,6 +43,7 @@ struct Arguments
   std::vector<std::string> words; // for sabot-verify
   std::string json_file;
   bool quiet = false, list = false, is_about_studies = false;
+  bool overwrite = false;
   StudyArguments study;
   PictureArguments picture;
 };
@@ -88,6 +97,8 @@ ExitCode run_scene(const Arguments &arguments)
   return with_scene(file,
                     [&](Scene &scene)
                     {
+                      claim_results_folder(arguments.folder,
+                                           arguments.overwrite, MPI_COMM_WORLD);
                       return Run(scene, arguments.folder, arguments.quiet,
                                  MPI_COMM_WORLD)
                           .execute();
@@ -150,6 +161,11 @@ ExitCode resume_run(const Arguments &arguments)
       {
         scene.warnings.insert(scene.warnings.begin(), point.warnings.begin(),
                               point.warnings.end());
+        if (point.time >= scene.settings.end_time)
+          throw InputError("End time",
+                           "the checkpoint \"" + point.checkpoint +
+                               "\" is of a later time; a resumed run can only "
+                               "end later than that");
         return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
             .execute(point.checkpoint);
       });
@@ -240,6 +256,8 @@ void add_run(CLI::App &app, Arguments &arguments, Action &action)
   add_scene(command, arguments);
   command.add_option("-o,--output", arguments.folder, "Folder for the results")
       ->capture_default_str();
+  command.add_flag("--overwrite", arguments.overwrite,
+                   "Replace the results that the folder holds");
   command.add_flag("--quiet", arguments.quiet, "Write to log.txt only");
   command.callback([&]() { action = {run_scene}; });
 }
@@ -247,7 +265,9 @@ void add_run(CLI::App &app, Arguments &arguments, Action &action)
 void add_resume(CLI::App &app, Arguments &arguments, Action &action)
 {
   CLI::App &command = *app.add_subcommand(
-      "resume", "Continue an interrupted run from its newest checkpoint");
+      "resume",
+      "Continue a run from its newest checkpoint: an interrupted one, "
+      "or a finished one to a later end time");
   command.add_option("folder", arguments.folder, "Folder with the results")
       ->required();
   add_overrides(command, arguments.overrides,
@@ -402,6 +422,7 @@ int main(int argc, char **argv)
 
   // What exceeds a limit on files is an error of the write, as a full disk is.
   std::signal(SIGXFSZ, SIG_IGN);
+  program_facts() = {command_text(argc, argv), source_revision()};
   const MpiSession mpi(argc, argv);
   return report_errors(is_first_rank(), act);
 }

@@ -20,6 +20,14 @@ void make_folder(const std::string &folder)
                   "\": " + error.message());
 }
 
+void remove_file(const std::string &file)
+{
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error)
+    throw IOError("cannot remove \"" + file + "\": " + error.message());
+}
+
 void write_atomically(const std::string &file,
                       const std::function<void(const std::string &)> &write)
 {

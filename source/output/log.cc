@@ -49,21 +49,29 @@ void Log::warning(const std::string &text)
   line("warning: " + text);
 }
 
-void Log::progress(const std::string &text, const bool last)
+void Log::record(const std::string &text)
 {
-  if (!speaks || quiet)
+  if (!speaks)
     return;
-  const auto now = std::chrono::steady_clock::now();
-  const std::chrono::milliseconds pause(terminal ? 200 : 2000);
-  if (!last && now - last_progress < pause)
-    return;
-  last_progress = now;
-  if (terminal)
-  {
-    std::cout << "\r\033[K" << text << std::flush;
-    open_line = true;
-  }
-  else
+  if (!quiet && !terminal)
     std::cout << text << std::endl;
+  if (file.is_open())
+    file << text << std::endl;
+}
+
+bool Log::wants_progress() const
+{
+  return speaks && !quiet && terminal &&
+         std::chrono::steady_clock::now() - last_progress >
+             std::chrono::milliseconds(200);
+}
+
+void Log::progress(const std::string &text)
+{
+  if (!wants_progress())
+    return;
+  last_progress = std::chrono::steady_clock::now();
+  std::cout << "\r\033[K" << text << std::flush;
+  open_line = true;
 }
 } // namespace sabot

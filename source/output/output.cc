@@ -24,12 +24,11 @@ std::unique_ptr<SceneOutput> SceneOutput::make(const Parameters &prm,
   return output;
 }
 
-void SceneOutput::write_when_due(const OutputMoment &moment, const double slack,
-                                 RunFiles &files)
+void SceneOutput::write_when_due(const OutputMoment &moment, RunFiles &files)
 {
-  if (moment.is_last || is_due(moment.time, slack))
+  if (moment.is_last || is_due(moment.time))
     write(moment, files);
-  while (is_due(moment.time, slack))
+  while (is_due(moment.time))
     next += interval;
 }
 

@@ -140,7 +140,9 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
                                          scene.settings.end_time) /
                                   plan.mean_step;
   plan.steps = std::ceil(plan.steps * (1. - 1e-9));
-  plan.output_bytes = output.bytes(stepper.time());
+  plan.output_bytes =
+      output.bytes(stepper.time(), plan.steps) +
+      (scene.settings.checkpoint_at_end ? plan.checkpoint_bytes : 0.);
   plan.seconds = plan.set_up_seconds + plan.steps * plan.seconds_per_step +
                  output_seconds(scene, plan.steps, communicator);
   rusage usage;

@@ -115,9 +115,6 @@ std::vector<double> wave_distances(const Scene &scene, const std::size_t body,
   return distances;
 }
 
-/** Time between energy checks is the run's over this (as in run.cc). */
-constexpr double n_checks = 200.;
-
 double n_outputs(const SceneOutput &output, const double end)
 {
   return std::floor(end / output.period() * (1. + 1e-9)) + 1.;
@@ -234,9 +231,15 @@ FieldSize field_size(const OutputMesh &mesh, const bool all_yield)
   return size;
 }
 
-double n_rows(const Scene &scene)
+/** At every step of the first hundred, then every hundredth (Run). */
+double n_checks(const double n_steps)
 {
-  double n = n_checks;
+  return n_steps < 100. ? n_steps : 100. * (1. + std::log(n_steps / 100.));
+}
+
+double n_rows(const Scene &scene, const double n_steps)
+{
+  double n = n_checks(n_steps);
   for (const auto &output : scene.outputs)
     if (output->needs_rows())
       n += n_outputs(*output, scene.settings.end_time);
@@ -267,7 +270,7 @@ OutputEstimate::OutputEstimate(const Scene &scene, const PhysicsPlan &physics,
   }
 }
 
-double OutputEstimate::bytes(const double time) const
+double OutputEstimate::bytes(const double time, const double n_steps) const
 {
   const double end = scene.settings.end_time;
   double n_frames = 0.;
@@ -315,7 +318,7 @@ double OutputEstimate::bytes(const double time) const
     columns += 1. + body->measure().columns().size();
   columns += scene.quantities.empty() ? 0. : 1. + scene.quantities.size();
   constexpr double result_and_log = 10e3;
-  return bytes + 8. * columns * n_rows(scene) +
+  return bytes + 8. * columns * n_rows(scene, n_steps) +
          scene.expanded_parameters().size() + result_and_log;
 }
 
@@ -324,7 +327,7 @@ double output_seconds(const Scene &scene, const double n_steps,
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  const double rows = std::min(n_steps, n_rows(scene));
+  const double rows = std::min(n_steps, n_rows(scene, n_steps));
   double n_frames = 0.;
   for (const auto &output : scene.outputs)
     if (output->writes_fields())

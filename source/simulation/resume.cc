@@ -24,7 +24,8 @@ const std::vector<std::string> free_entries = {
     "Energy residual limit",
     "Checkpoint interval",
     "Checkpoint interval in steps",
-    "Checkpoint interval of wall time"};
+    "Checkpoint interval of wall time",
+    "Checkpoint at the end"};
 
 void check_overrides(const std::vector<std::string> &overrides)
 {
@@ -61,8 +62,9 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
   if (files.empty())
     throw InputError("", "\"" + folder +
                              "/checkpoint\" holds no checkpoint; a run leaves "
-                             "one when it is interrupted and at the intervals "
-                             "that its scene sets");
+                             "one when it is interrupted, at the intervals "
+                             "that its scene sets and, unless \"Checkpoint at "
+                             "the end\" is false, when it is finished");
   ResumePoint point;
   point.scene = folder + "/parameters.prm";
   std::string last_problem;
@@ -86,6 +88,7 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
                                "use mpirun -np " +
                                std::to_string(header.n_ranks));
     point.checkpoint = file;
+    point.time = header.time;
     std::ifstream stream(point.scene, std::ios::binary);
     std::string present{std::istreambuf_iterator<char>(stream), {}};
     present.erase(0, present.find('\n') + 1); // the version
@@ -129,6 +132,7 @@ ResumePoint find_resume_point(const std::string &folder,
   for (std::string *const text :
        {&input_problem, &file_problem, &point.checkpoint, &point.scene})
     broadcast(*text, communicator);
+  MPI_Bcast(&point.time, 1, MPI_DOUBLE, 0, communicator);
   if (!input_problem.empty())
     throw InputError("", input_problem);
   if (!file_problem.empty())

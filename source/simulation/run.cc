@@ -2,7 +2,7 @@
 #include "sabot/simulation/run.h"
 
 #include "sabot/output/file_tools.h"
-
+#include "sabot/simulation/plan.h"
 #include "sabot/simulation/run_result.h"
 
 #include <nlohmann/json.hpp>
@@ -28,8 +28,13 @@ std::string format(const char *pattern, const double value)
   return text;
 }
 
-/** How many energy checks and history rows a run makes at least. */
-constexpr double checks_per_run = 200.;
+/** Steps to the next energy check and row of the histories: a hundredth of
+    those made. So every run has some hundred rows, and they do not depend on
+    its end, which may be put off later. */
+unsigned int steps_to_next_check(const unsigned int steps)
+{
+  return std::max(1u, steps / 100);
+}
 } // namespace
 
 std::string version()
@@ -51,7 +56,8 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
     : scene(scene), communicator(communicator), log(quiet, communicator),
       stepper(scene.bodies, scene.loads, scene.couplings,
               step_limits(scene.settings), timers, communicator),
-      balance(scene, communicator), files(folder, communicator),
+      balance(scene, communicator), report(scene, balance, log),
+      files(folder, communicator),
       checkpoints(folder + "/checkpoint", communicator),
       schedule(scene.settings, communicator)
 {
@@ -105,6 +111,8 @@ void Run::open_folder(const bool append)
     {
       make_folder(files.folder);
       log.open(files.folder + "/log.txt", append);
+      // While the run goes on, nothing says that it is finished.
+      remove_file(files.folder + "/result.json");
       write_text(files.folder + "/parameters.prm",
                  "# Sabot " + version() + "\n" + scene.expanded_parameters());
     }
@@ -121,41 +129,18 @@ void Run::open_folder(const bool append)
     output->open(files);
 }
 
-void Run::describe_scene()
-{
-  for (const auto &body : scene.bodies)
-    log.line("  body " + body->name + ": " + std::to_string(body->n_items()) +
-             " " + body->item_name());
-  for (const std::string &note : scene.notes)
-    log.line("  " + note);
-  for (const std::string &warning : scene.warnings)
-    log.warning(warning);
-  for (const auto &coupling : scene.couplings)
-    for (const Measure &m : coupling->measure())
-    {
-      if (m.name == "tied nodes")
-        log.line("  tie " + coupling->name + ": " + format("%.0f", m.value) +
-                 " nodes");
-      if (m.name == "initial penetration over spacing" && m.value > 0.)
-        log.warning("contact " + coupling->name +
-                    ": nodes start inside the other body by up to " +
-                    format("%.3g", m.value) + " spacings");
-    }
-}
-
 void Run::start(const std::string &checkpoint)
 {
   const bool resumed = !checkpoint.empty();
   open_folder(resumed);
-  log.line("Sabot " + version() + ", " + std::to_string(n_ranks) +
-           (n_ranks == 1 ? " rank" : " ranks") +
-           (scene.settings.title.empty() ? "" : ": " + scene.settings.title));
+  report.describe_program(n_ranks);
+  const std::vector<std::string> doubts = plan_physics(scene).warnings;
   {
     const auto timer = timers.scope("set-up");
     scene.distribute();
     stepper.initialize();
   }
-  describe_scene();
+  report.describe_scene(doubts);
   if (resumed)
     restore(checkpoint);
   else
@@ -170,9 +155,8 @@ void Run::start(const std::string &checkpoint)
 
 bool Run::record_due() const
 {
-  const double slack = 1e-9 * scene.settings.end_time;
   for (const auto &output : scene.outputs)
-    if (output->needs_rows() && output->is_due(stepper.time(), slack))
+    if (output->needs_rows() && output->is_due(stepper.time()))
       return true;
   return false;
 }
@@ -207,23 +191,29 @@ void Run::loop()
       interrupted = true;
       return;
     }
+    if (scene.settings.checkpoint_at_end &&
+        stepper.reaches_end(stepper.choose(proposal)))
+      write_checkpoint();
     make_step(proposal);
-    const bool check = stepper.time() >= next_check || stepper.is_finished();
+    const bool check = stepper.steps() >= next_check || stepper.is_finished();
     const bool recorded = check || record_due();
     if (recorded)
     {
-      next_check = stepper.time() + scene.settings.end_time / checks_per_run;
+      next_check = stepper.steps() + steps_to_next_check(stepper.steps());
       const auto timer = timers.scope("balance");
       record();
     }
     write_outputs(false);
-    log.progress(progress_text());
+    report.progress({stepper.steps(), stepper.time(), stepper.last_step(),
+                     limiter, earlier_seconds + seconds_since_start(),
+                     seconds_since_start()});
     if (recorded)
       balance.check(scene.settings.energy_limit, limiter);
-    if (schedule.is_due(stepper.steps(), stepper.time(), seconds_since_start()))
+    // The cut last step is no place to go on from.
+    if (!stepper.is_finished() &&
+        schedule.is_due(stepper.steps(), stepper.time(), seconds_since_start()))
       write_checkpoint();
   }
-  log.progress(progress_text(), true);
 }
 
 void Run::record()
@@ -252,24 +242,9 @@ void Run::write_outputs(const bool is_last)
   for (const auto &body : scene.bodies)
     moment.bodies.push_back(body.get());
   for (const auto &output : scene.outputs)
-    output->write_when_due(moment, 1e-9 * scene.settings.end_time, files);
+    output->write_when_due(moment, files);
   if (is_last && !files.history.tables.empty())
     files.write_history();
-}
-
-std::string Run::progress_text() const
-{
-  const double wall = earlier_seconds + seconds_since_start();
-  const double done = stepper.time() / scene.settings.end_time;
-  const double left = done > 0. ? wall * (1. - done) / done : 0.;
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "step %6u  time %.4e s (%3.0f %%)  dt %.3e s (%s)  energy "
-                "residual %.2e  ETA %.0f s",
-                stepper.steps(), stepper.time(), 100. * done,
-                stepper.last_step(), limiter.c_str(), balance.last_residual(),
-                left);
-  return text;
 }
 
 void Run::write_result(const std::string &status, const std::string &reason)
@@ -306,11 +281,14 @@ void Run::write_result(const std::string &status, const std::string &reason)
   log.line(text);
   for (const ZoneVerdict &zone : zones)
     log.line("  " + describe(zone));
+  if (status == "failed" && !scene.quantities.empty())
+    log.line("  quantities of a state that went wrong are not given");
   for (const auto &quantity : scene.quantities)
-  {
-    std::snprintf(text, sizeof(text), "  %s: %.6g %s", quantity->name.c_str(),
-                  quantity->value(), quantity->unit().c_str());
-    log.line(text);
-  }
+    if (status != "failed")
+    {
+      std::snprintf(text, sizeof(text), "  %s: %.6g %s", quantity->name.c_str(),
+                    quantity->value(), quantity->unit().c_str());
+      log.line(text);
+    }
 }
 } // namespace sabot

@@ -129,6 +129,7 @@ ordered_json timer_results(const Scene &scene, const Timers &timers,
         items += body->n_items();
     ordered_json t;
     t["seconds"] = phase.seconds;
+    t["cpu_seconds"] = phase.cpu_seconds;
     t["calls"] = phase.calls;
     int n_bodies = 0;
     for (const auto &body : scene.bodies)
@@ -201,9 +202,12 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
       summary.steps > 0 ? number(summary.smallest_step) : ordered_json(nullptr);
   r["bodies"] = body_results(scene);
   r["quantities"] = ordered_json::object();
+  // A state that went wrong has numbers, but they answer nothing.
+  const bool is_valid = summary.status != "failed";
   for (const auto &quantity : scene.quantities)
-    r["quantities"][quantity->name] = {{"value", number(quantity->value())},
-                                       {"unit", quantity->unit()}};
+    r["quantities"][quantity->name] = {
+        {"value", is_valid ? number(quantity->value()) : ordered_json(nullptr)},
+        {"unit", quantity->unit()}};
   r["energy"] = ordered_json::object();
   for (const Measure &m : balance.row())
     if (m.unit == "J")

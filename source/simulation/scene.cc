@@ -49,6 +49,7 @@ void Scene::read_settings()
   settings.checkpoint_steps = prm.get_integer("Checkpoint interval in steps");
   settings.checkpoint_wall_time =
       get_quantity(prm, "Checkpoint interval of wall time");
+  settings.checkpoint_at_end = prm.get_bool("Checkpoint at the end");
   if (names_of("bodies").empty())
     throw InputError("List of bodies",
                      "the scene has no bodies; list their names");

@@ -37,6 +37,11 @@ void declare_top(Parameters &prm)
                     quantity(Dimension::time, 0., 1e7),
                     "Wall-clock time between checkpoints; 0: not by wall "
                     "time.");
+  prm.declare_entry(
+      "Checkpoint at the end", "true", boolean(),
+      "Leave a checkpoint before the last step, which is cut to "
+      "meet the end time: \"sabot resume DIR --set 'End time=...'\" "
+      "then goes on as if the run had never ended.");
   prm.declare_entry("List of bodies", "", names,
                     "Names of the bodies, in order.");
   prm.declare_entry("List of loads", "", names,

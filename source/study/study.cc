@@ -48,7 +48,11 @@ Command command_for(const StudyFile &study, const StudyRun &run,
     command.words.insert(command.words.end(), {"resume", folder});
   else
   {
-    command.words.insert(command.words.end(), {"run", run.scene, "-o", folder});
+    // What a study keeps are results; checkpoints of all its runs at their ends
+    // would take more room than these.
+    command.words.insert(command.words.end(),
+                         {"run", run.scene, "-o", folder, "--overwrite",
+                          "--set", "Checkpoint at the end=false"});
     for (const std::string &text : run.overrides)
       command.words.insert(command.words.end(), {"--set", text});
   }

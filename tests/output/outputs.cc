@@ -50,9 +50,9 @@ TEST_F(Outputs, fall_due_at_multiples_of_their_interval)
   for (int step = 0; step <= 10; ++step)
   {
     const double time = 0.7e-6 * step; // [s]
-    if (output->is_due(time, 1e-12))
+    if (output->is_due(time))
       written.push_back(time);
-    output->write_when_due({time, unsigned(step), false, {}}, 1e-12, files);
+    output->write_when_due({time, unsigned(step), false, {}}, files);
   }
   ASSERT_EQ(written.size(), 4u);
   const double due[] = {0., 2.1e-6, 4.2e-6, 6.3e-6};
@@ -68,16 +68,16 @@ TEST_F(Outputs, histories_are_written_at_the_end_or_with_fields)
   EXPECT_TRUE(history->needs_rows());
   EXPECT_FALSE(fields->needs_rows());
   files.history.append("ledger", {{"time", "s", 0.}});
-  history->write_when_due({0., 0, false, {}}, 0., files);
+  history->write_when_due({0., 0, false, {}}, files);
   EXPECT_FALSE(is_there("history.h5"));
-  fields->write_when_due({0., 0, false, {}}, 0., files);
+  fields->write_when_due({0., 0, false, {}}, files);
   EXPECT_TRUE(is_there("history.h5"));
   std::filesystem::remove(folder + "/history.h5");
   // Without new rows there is nothing to write.
-  history->write_when_due({1e-6, 1, true, {}}, 0., files);
+  history->write_when_due({1e-6, 1, true, {}}, files);
   EXPECT_FALSE(is_there("history.h5"));
   files.history.append("ledger", {{"time", "s", 1e-6}});
-  history->write_when_due({1e-6, 1, true, {}}, 0., files);
+  history->write_when_due({1e-6, 1, true, {}}, files);
   EXPECT_TRUE(is_there("history.h5"));
 }
 
@@ -88,7 +88,7 @@ TEST_F(Outputs, no_time_is_written_twice_and_a_resumed_run_goes_on)
   EXPECT_FALSE(files.write_fields(0., {}));
   files.history.append("ledger", {{"time", "s", 0.}, {"total", "J", 2.}});
   const auto output = make("VTU", "1 us");
-  output->write_when_due({0., 0, false, {}}, 0., files);
+  output->write_when_due({0., 0, false, {}}, files);
   StateSaver saver;
   files.visit_state(saver);
   output->visit_state(saver, "next some");
@@ -99,8 +99,8 @@ TEST_F(Outputs, no_time_is_written_twice_and_a_resumed_run_goes_on)
   again.visit_state(restorer);
   other->visit_state(restorer, "next some");
   EXPECT_FALSE(again.write_fields(0., {}));
-  EXPECT_FALSE(other->is_due(0.5e-6, 0.));
-  EXPECT_TRUE(other->is_due(1e-6, 0.));
+  EXPECT_FALSE(other->is_due(0.5e-6));
+  EXPECT_TRUE(other->is_due(1e-6));
   EXPECT_EQ(again.history.tables["ledger"].columns,
             (std::vector<std::string>{"time [s]", "total [J]"}));
   EXPECT_EQ(again.history.tables["ledger"].values,

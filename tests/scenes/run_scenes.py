@@ -193,7 +193,8 @@ class Scenes(unittest.TestCase):
                 every = int(0.8 * r["steps"])
                 parted = folder(name + "-parts")
                 done = sabot("run", scene, "-o", parted, "--quiet", *options, "--set",
-                             "Checkpoint interval in steps=%d" % every, ranks=2)
+                             "Checkpoint interval in steps=%d" % every, "--set",
+                             "Checkpoint at the end=false", ranks=2)
                 self.assertEqual(done.returncode, 0, done.stdout)
                 os.remove(os.path.join(parted, "history.h5"))
                 done = sabot("resume", parted, "--quiet", ranks=2)
@@ -625,7 +626,7 @@ class Scenes(unittest.TestCase):
             self.assertIn(os.path.basename(files[0]), names + ["step-"])
             # What is left is taken up again, to a step further on.
             done = sabot("resume", out, "--quiet", "--set",
-                         "End time=%g us" % 3., ranks=ranks)
+                         "End time=100 us", ranks=ranks)
             self.assertEqual(done.returncode, 0, done.stdout)
             with open(os.path.join(out, "log.txt")) as file:
                 log = file.read()
@@ -712,7 +713,7 @@ class Scenes(unittest.TestCase):
             parted = folder("parted")
             done = sabot("run", QUICK, "-o", parted, *settings, "--set",
                          "Checkpoint interval in steps=%d" % (0.4 * steps),
-                         ranks=ranks)
+                         "--set", "Checkpoint at the end=false", ranks=ranks)
             self.assertEqual(done.returncode, 0, done.stdout)
             files = sorted(os.listdir(os.path.join(parted, "checkpoint")))
             self.assertEqual(len(files), 2)
@@ -768,6 +769,7 @@ class Scenes(unittest.TestCase):
                 every = int(0.8 * result(straight)["steps"])
                 done = sabot("run", scene, "-o", parted, "--quiet", *settings,
                              "--set", "Checkpoint interval in steps=%d" % every,
+                             "--set", "Checkpoint at the end=false",
                              ranks=ranks)
                 self.assertEqual(done.returncode, 0, done.stdout)
                 os.remove(os.path.join(parted, "history.h5"))

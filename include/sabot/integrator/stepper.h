@@ -85,6 +85,13 @@ public:
   /** To 1e-12 of the end time, as sums of steps are not exact. */
   bool is_finished() const { return time() >= limits.end_time * (1. - 1e-12); }
 
+  /** Whether a step of @p dt [s] is the last one, which is cut to meet the end
+      time. */
+  bool reaches_end(const double dt) const
+  {
+    return time() + dt >= limits.end_time * (1. - 1e-12);
+  }
+
   const StepLimits limits;
 
 private:

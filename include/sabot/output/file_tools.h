@@ -14,6 +14,9 @@ namespace sabot
     calls them and tells the others. */
 void make_folder(const std::string &folder);
 
+/** Remove a file; none there is right. IOError with the system's reason. */
+void remove_file(const std::string &file);
+
 /** Call @p write with a temporary name beside @p file ("file.part"), then
     rename: whoever reads the file finds the old or the new one, whole, at any
     moment. IOError when either fails; the temporary is gone, the old file

@@ -25,9 +25,14 @@ public:
   void line(const std::string &text);
   /** The same after "warning: ". */
   void warning(const std::string &text);
-  /** One line that is replaced on a terminal; elsewhere shown at most every
-      two seconds. Not in the file. The @p last is shown in any case. */
-  void progress(const std::string &text, const bool last = false);
+  /** A line of the file that also goes to the screen, unless that is a
+      terminal, which has the live line. */
+  void record(const std::string &text);
+  /** Whether progress() would show a text now. */
+  bool wants_progress() const;
+  /** The live line: replaced in place, on a terminal only, at most five times a
+      second. Not in the file. */
+  void progress(const std::string &text);
 
 private:
   bool speaks;            // rank 0

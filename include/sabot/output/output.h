@@ -51,11 +51,11 @@ public:
   static std::unique_ptr<SceneOutput> make(const Parameters &prm,
                                            const std::string &path);
 
-  /** Whether a write falls due at @p time, up to @p slack (both [s]); the
-      same on every rank. */
-  bool is_due(const double time, const double slack) const
+  /** Whether a write falls due at @p time [s], up to 1e-9 of the interval; the
+      same on every rank. Depends on nothing that a later end time changes. */
+  bool is_due(const double time) const
   {
-    return time >= next - slack;
+    return time >= next - 1e-9 * interval;
   }
   /** Time between two writes [s]. */
   double period() const { return interval; }
@@ -69,8 +69,7 @@ public:
   virtual void open(RunFiles & /*files*/) {}
   /** write() where it is due or @p moment the last; then the next multiple of
       the interval falls due. Collective; IOError on all ranks. */
-  void write_when_due(const OutputMoment &moment, const double slack,
-                      RunFiles &files);
+  void write_when_due(const OutputMoment &moment, RunFiles &files);
   /** The time that falls due next, as part of the state @p name. */
   void visit_state(StateVisitor &visitor, const std::string &name);
 

@@ -26,7 +26,7 @@ class VtuWriter;
  *       output->open(files);
  *     ...                                  // after each step
  *     for (const auto &output : outputs)
- *       output->write_when_due({time, step, is_last, bodies}, slack, files);
+ *       output->write_when_due({time, step, is_last, bodies}, files);
  *
  * An output of another kind needs the folder and the communicator only.
  */

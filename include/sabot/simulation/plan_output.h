@@ -19,9 +19,9 @@ public:
   /**
    * Bytes that all outputs take: frames in which what the waves have reached
    * is full of numbers. How fast that grows is seen from the scene's state now,
-   * at @p time [s].
+   * at @p time [s]; rows of the histories by the steps of the run.
    */
-  double bytes(const double time) const;
+  double bytes(const double time, const double n_steps) const;
 
 private:
   struct BodyOutput

@@ -13,6 +13,7 @@ struct ResumePoint
 {
   std::string checkpoint;            // the newest whole file
   std::string scene;                 // its parameters, as a file
+  double time = 0.;                  // of its state [s]
   std::vector<std::string> warnings; // e.g. damaged files passed over
 };
 

@@ -4,10 +4,10 @@
 #include "sabot/base/error.h"
 #include "sabot/integrator/stepper.h"
 #include "sabot/output/checkpoint.h"
-#include "sabot/output/log.h"
 #include "sabot/output/run_files.h"
 #include "sabot/simulation/balance.h"
 #include "sabot/simulation/checkpoint_schedule.h"
+#include "sabot/simulation/run_report.h"
 #include "sabot/simulation/scene.h"
 
 #include <chrono>
@@ -72,13 +72,8 @@ private:
    */
   void open_folder(const bool append);
   /**
-   * To the log: sizes of bodies, notes, warnings, tied nodes, and how far nodes
-   * start inside of what they touch.
-   */
-  void describe_scene();
-  /**
-   * Until the end time or a signal. Energy is looked at with every row, and at
-   * least two hundred times a run.
+   * Until the end time or a signal. Energy is looked at with every row, and
+   * after every hundredth of the steps made so far, which adds a row.
    */
   void loop();
   /**
@@ -101,11 +96,6 @@ private:
    * "completed", "interrupted" or "failed". IOError on all ranks. Collective.
    */
   void write_result(const std::string &status, const std::string &reason);
-  /**
-   * Step, time, step size with what limits it, energy residual, and the wall
-   * time left if the rest went as the past.
-   */
-  std::string progress_text() const;
   /** Numbers of the run itself, then of all bodies and couplings. */
   template <typename Visitor>
   void visit_all(Visitor &visitor);
@@ -128,13 +118,14 @@ private:
   Timers timers;
   Stepper stepper;
   EnergyBalance balance;
+  RunReport report;
   RunFiles files;
   CheckpointFolder checkpoints;
   CheckpointSchedule schedule;
 
   double smallest_step = std::numeric_limits<double>::max(); // stable [s]
   std::string limiter;
-  double next_check = 0.; // [s]
+  unsigned int next_check = 0; // step
   std::chrono::steady_clock::time_point start_time;
   double earlier_seconds = 0.; // wall time before the run was resumed
   bool interrupted = false;

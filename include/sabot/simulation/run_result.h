@@ -34,11 +34,12 @@ struct RunSummary
 /**
  * What result.json says of a run, in the order of the file. Collective.
  * In SI, keys with underscores. Sections: run, residuals, "bodies",
- * "quantities", "energy" [J], "timers" (seconds of this rank, calls, ns per
- * item), "contact", "couplings", "zone", "knobs". Numbers that are not finite
- * become null, as JSON has none. Processor seconds and peak memory are sums
- * over ranks. The momentum residual is null where something holds a body from
- * outside. Of fragments the twenty heaviest stand in it.
+ * "quantities" (null after a failure), "energy" [J], "timers" (wall and
+ * processor seconds of this rank, calls, ns per item), "contact", "couplings",
+ * "zone", "knobs". Numbers that are not finite become null, as JSON has none.
+ * Processor seconds and peak memory are sums over ranks. The momentum residual
+ * is null where something holds a body from outside. Of fragments the twenty
+ * heaviest stand in it.
  */
 nlohmann::ordered_json
 make_result(const Scene &scene, const RunSummary &summary,

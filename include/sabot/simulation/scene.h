@@ -30,6 +30,7 @@ struct RunSettings
   // Between checkpoints, 0: none for this reason.
   double checkpoint_interval, checkpoint_wall_time; // [s]
   unsigned int checkpoint_steps;
+  bool checkpoint_at_end; // from which a later end time goes on
 };
 
 /**

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""What runs answer and keep: run_answers.py SABOT SOURCE_FOLDER WORK_FOLDER
+
+Results that are not lost, the record in log.txt, runs that go on after their
+end, and forces and states over time.
+"""
+import glob
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
+QUICK = os.path.join(SOURCE, "prm/perforation/quick.prm")
+BAR = os.path.join(SOURCE, "tests/scenes/bar.prm")
+# OpenMPI refuses root unless told twice.
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
+                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+
+def sabot(*arguments, ranks=1):
+    command = [SABOT, *arguments]
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
+    return subprocess.run(command, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, universal_newlines=True,
+                          timeout=600, env=ENVIRONMENT)
+
+
+def folder(name):
+    path = os.path.join(WORK, name)
+    shutil.rmtree(path, ignore_errors=True)
+    return path
+
+
+def result(path):
+    with open(os.path.join(path, "result.json")) as file:
+        return json.load(file)
+
+
+def read(*names):
+    with open(os.path.join(*names), "rb") as file:
+        return file.read()
+
+
+class Answers(unittest.TestCase):
+    def run_scene(self, scene, out, *settings, ranks=1, code=0):
+        words = [word for s in settings for word in ("--set", s)]
+        done = sabot("run", scene, "-o", out, "--quiet", *words, ranks=ranks)
+        self.assertEqual(done.returncode, code, done.stdout)
+        return done
+
+    def test_a_finished_run_goes_on_to_a_later_end(self):
+        # Particles, contact, broken bonds; frames and rows of both ends fall
+        # between the multiples of their intervals.
+        for scene, ranks, first, last, settings in (
+                (BAR, 1, "1.3 us", "5 us", ("Outputs/fields/Interval=2 us",)),
+                (BAR, 2, "0.01 us", "2 us", ()),
+                (QUICK, 2, "0.7 us", "1.5 us", (
+                    "Outputs/fields/Interval=0.6 us",))):
+            with self.subTest(scene + first):
+                parted, whole = folder("extended"), folder("long")
+                self.run_scene(scene, parted, "End time=" + first, *settings,
+                               ranks=ranks)
+                self.assertEqual(result(parted)["status"], "completed")
+                done = sabot("resume", parted, "--quiet", "--set",
+                             "End time=" + last, ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.run_scene(scene, whole, "End time=" + last, *settings,
+                               ranks=ranks)
+                files = sorted(
+                    os.path.relpath(name, whole) for pattern in (
+                        "history.h5", "sabot.pvd", "fields/*", "parameters.prm")
+                    for name in glob.glob(os.path.join(whole, pattern)))
+                self.assertGreater(len(files), 3)
+                for name in files:
+                    self.assertEqual(read(parted, name), read(whole, name),
+                                     name)
+                self.assertEqual(
+                    sorted(os.listdir(os.path.join(parted, "fields"))),
+                    sorted(os.listdir(os.path.join(whole, "fields"))))
+                a, b = result(parted), result(whole)
+                for key in ("bodies", "energy", "quantities", "couplings",
+                            "steps", "energy_residual_max"):
+                    self.assertEqual(a[key], b[key], key)
+        # Not to an earlier one, nor without the checkpoint.
+        done = sabot("resume", parted, "--set", "End time=1 us", ranks=2)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("can only end later", done.stdout)
+        self.run_scene(BAR, folder("no-end"), "Checkpoint at the end=false")
+        done = sabot("resume", os.path.join(WORK, "no-end"), "--set",
+                     "End time=9 us")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("Checkpoint at the end", done.stdout)
+
+    def test_results_are_not_overwritten_unless_told(self):
+        out = folder("kept")
+        self.run_scene(BAR, out, "Outputs/fields/Interval=1 us")
+        frames = set(os.listdir(os.path.join(out, "fields")))
+        own = os.path.join(out, "fields", "notes.txt")
+        with open(own, "w") as file:
+            file.write("mine")
+        before = {name: read(name) for name in
+                  glob.glob(out + "/**", recursive=True)
+                  if os.path.isfile(name)}
+        for ranks in (1, 2):
+            done = sabot("run", BAR, "-o", out, ranks=ranks)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("--overwrite", done.stdout)
+        for name, content in before.items():
+            self.assertEqual(read(name), content, name)
+        # Told, nothing of the old run stays, and nothing else goes.
+        done = sabot("run", BAR, "-o", out, "--quiet", "--overwrite", "--set",
+                     "End time=2 us", "--set", "Outputs/fields/Interval=2 us")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        left = set(os.listdir(os.path.join(out, "fields")))
+        self.assertTrue(os.path.exists(own))
+        self.assertLess(len(left), len(frames))
+        self.assertEqual(len(left) - 1,
+                         read(out, "sabot.pvd").count(b"<DataSet"))
+        self.assertEqual(len(glob.glob(out + "/checkpoint/*.h5")), 1)
+        # An interrupted run can go on, and is kept, too.
+        os.remove(os.path.join(out, "result.json"))
+        done = sabot("run", BAR, "-o", out)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("sabot resume", done.stdout)
+
+    def test_a_failed_run_answers_nothing(self):
+        out = folder("failed")
+        done = sabot("run", BAR, "-o", out, "--set", "Step factor=2", "--set",
+                     "End time=1 ms", "--set", "Outputs/fields/Interval=1 ms")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        r = result(out)
+        self.assertEqual(r["status"], "failed")
+        self.assertEqual(r["quantities"], {"speed": {"value": None,
+                                                     "unit": "m/s"}})
+        self.assertIn("are not given", done.stdout)
+        self.assertNotIn("speed:", done.stdout)
+        # It may be run again without more words.
+        self.run_scene(BAR, out)
+        self.assertAlmostEqual(result(out)["quantities"]["speed"]["value"], 10.,
+                               delta=1e-9)
+
+    def test_the_log_is_a_record(self):
+        out = folder("record")
+        done = sabot("run", BAR, "-o", out, "--set", "End time=60 us", "--set",
+                     "Title=it's a bar")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        log = read(out, "log.txt").decode()
+        self.assertRegex(log, r"Sabot [\d.]+, revision \w+.*: it's a bar\n")
+        self.assertRegex(log, r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC on \S+, "
+                              r"1 rank\n")
+        self.assertIn("--set 'Title=it'\\''s a bar'", log)
+        self.assertRegex(log, r"compiled by \w+ [\d.]+, instruction set \w+")
+        # A line at each percent, which names energies and what limits the step.
+        lines = re.findall(r"step +(\d+)  time (\S+) s .*\(block #\d+\).*"
+                           r"kinetic \S+.*total \S+ J", log)
+        self.assertGreater(len(lines), 80)
+        self.assertLess(len(lines), 102)
+        # Nothing is overwritten in place where there is no terminal.
+        self.assertNotIn("\r", done.stdout)
+        for line in log.splitlines():
+            self.assertIn(line, done.stdout)
+        # What the plan doubts stands in it.
+        self.run_scene(QUICK, out + "-doubts", "Bodies/projectile/"
+                       "Initial velocity=0 m/s, 0 m/s, -6 km/s",
+                       "End time=0.01 us")
+        self.assertIn("warning: body \"projectile\" is shocked beyond",
+                      read(out + "-doubts", "log.txt").decode())
+        self.addCleanup(shutil.rmtree, out + "-doubts")
+
+    def test_timers_count_the_processor(self):
+        out = folder("timers")
+        self.run_scene(BAR, out, "End time=100 us")
+        r = result(out)
+        step = r["timers"]["spg step"]
+        self.assertGreater(step["cpu_seconds"], 0.)
+        self.assertLess(step["cpu_seconds"], 1.05 * step["seconds"])
+        total = sum(t["cpu_seconds"] for name, t in r["timers"].items())
+        self.assertLess(total, 1.1 * r["cpu_seconds"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
