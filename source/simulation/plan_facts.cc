@@ -126,8 +126,8 @@ ImpactFacts find_impact(const std::vector<PlannedBody> &bodies)
   impact.radius = never;
   for (int d = 0; d < 3; ++d)
     if (d != impact.axis)
-      impact.radius = std::min(
-          impact.radius, (p.is_cut[d] ? 1. : 0.5) * (p.high[d] - p.low[d]));
+      impact.radius = std::min(impact.radius, (p.is_cut[d] ? 1. : 0.5) *
+                                                  (p.high[d] - p.low[d]));
   const double half = 0.5 * impact.speed;
   double yield = never;
   for (const PlannedBody &body : bodies)
