@@ -25,8 +25,7 @@ public:
                        "the body's material has no effective plastic strain; "
                        "use a law with plasticity or remove the entry");
   }
-  std::optional<double>
-  critical_plastic_strain(const Material &) const override
+  std::optional<double> critical_plastic_strain(const Material &) const override
   {
     return can_be_met() ? std::optional(critical_value()) : std::nullopt;
   }
