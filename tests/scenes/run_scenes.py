@@ -877,7 +877,7 @@ class Scenes(unittest.TestCase):
             return next(n["value"] for n in numbers
                         if n["name"].startswith("zone"))
 
-        coarse = ("--set", "Bodies/core/Nodal spacing=2 mm")
+        coarse = ("--set", "Bodies/core/Nodal spacing=1.5 mm")
         self.assertAlmostEqual(zone("perforation/quarter.prm", *coarse),
                                zone("perforation/base.prm", *coarse), 12)
         # By damage: at the strain that it takes in shear.
