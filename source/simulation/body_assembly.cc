@@ -1,6 +1,7 @@
 // Bodies of a scene from their shapes, zones and discretizations.
 #include "sabot/simulation/body_assembly.h"
 
+#include "sabot/base/text.h"
 #include "sabot/geometry/mesh_import.h"
 
 #include <algorithm>
@@ -93,8 +94,14 @@ void BodyAssembly::carve_meshes()
       const NamedMesh whole = make_mesh("Bodies/" + c.body, size, &c);
       CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
                                "Bodies/" + c.zone + "/Center");
-      cells[c.body] = {std::move(parts.rest), whole.faces};
-      cells[c.zone] = {std::move(parts.zone), whole.faces};
+      for (const std::string &name : {c.body, c.zone})
+      {
+        cells[name].faces = whole.faces;
+        cells[name].groups = whole.groups;
+        cells[name].unusable = whole.unusable;
+      }
+      cells[c.body].mesh = std::move(parts.rest);
+      cells[c.zone].mesh = std::move(parts.zone);
       if (!shape_of(c.body)->follows_cell_size())
         size = make_mesh_cloud(cells[c.zone].mesh).spacing[0];
     }
@@ -115,12 +122,30 @@ NamedMesh BodyAssembly::make_mesh(const std::string &path, const double size,
   request.carving = carving;
   NamedMesh made = shape_of(name)->mesh(request);
   const MeshQuality quality = measure_quality(made.mesh);
+  for (const std::string &note : made.notes)
+    notes.push_back("mesh of " + name + ": " + note);
   notes.push_back("mesh of " + name + ": " + quality.text());
-  if (quality.scaled_jacobian <= 0.)
+  for (const std::string &warning : made.warnings)
+    warnings.push_back("mesh of \"" + name + "\": " + warning);
+  if (quality.is_inverted)
     throw InputError(path + "/Geometry",
                      "the mesh has a cell that is inside out or flat: " +
                          quality.text());
   return made;
+}
+
+void BodyAssembly::name_planes_of(const std::string &path,
+                                  NamedMesh &made) const
+{
+  std::vector<std::string> entries;
+  for (const std::string entry :
+       {"Symmetry faces", "Clamped faces", "Driven faces"})
+    entries.push_back(path + "/" + entry);
+  for (const std::string &load : file.subsections("Loads"))
+    if ("Bodies/" + trim(file.value("Loads/" + load + "/Body", "")) == path)
+      entries.push_back("Loads/" + load + "/Faces");
+  for (const std::string &entry : entries)
+    name_planes(made, entry, file.value(entry, ""), entry == entries[0]);
 }
 
 std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
@@ -143,14 +168,19 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
   const auto shape = shape_of(name);
   const auto mesh = [&](const double size)
   {
-    return make_mesh(path, size,
-                     carving == carvings.end() ? nullptr : &*carving);
+    NamedMesh made =
+        make_mesh(path, size, carving == carvings.end() ? nullptr : &*carving);
+    name_planes_of(path, made);
+    return made;
   };
   BodyRequest request{prm,    file, path,        name, id, material->second,
                       *shape, mesh, std::nullopt};
   const auto made = cells.find(name);
   if (made != cells.end())
+  {
+    name_planes_of(path, made->second);
     request.cells = std::move(made->second);
+  }
   return discretization_of(name)->build(request);
 }
 

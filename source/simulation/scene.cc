@@ -24,6 +24,8 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   zones = std::move(assembly.zones);
   notes = file.notes();
   notes.insert(notes.end(), assembly.notes.begin(), assembly.notes.end());
+  warnings.insert(warnings.end(), assembly.warnings.begin(),
+                  assembly.warnings.end());
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
   check_overlaps(*this, file);

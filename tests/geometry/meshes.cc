@@ -1,4 +1,4 @@
-// Meshes: volumes, boundaries, growth, import.
+// Meshes: volumes, boundaries, growth.
 #include "sabot/base/error.h"
 #include "sabot/geometry/carving.h"
 #include "sabot/geometry/mesh_generator.h"
@@ -9,8 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <set>
 
 namespace
@@ -121,151 +119,6 @@ TEST(RoundBodies, noses_have_their_volume_and_length)
           << measure_quality(mesh).text();
       ++n;
     }
-}
-
-/** Two unit cubes side by side along x, in the three formats. */
-std::string write(const std::string &name, const std::string &text)
-{
-  const std::string file = testing::TempDir() + name;
-  std::ofstream(file) << text;
-  return file;
-}
-
-const char *const gmsh = R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$Nodes
-12
-1 0 0 0
-2 1 0 0
-3 1 1 0
-4 0 1 0
-5 0 0 1
-6 1 0 1
-7 1 1 1
-8 0 1 1
-9 2 0 0
-10 2 1 0
-11 2 0 1
-12 2 1 1
-$EndNodes
-$Elements
-3
-1 3 2 7 1 1 4 8 5
-2 5 2 1 1 1 2 3 4 5 6 7 8
-3 5 2 2 1 2 9 10 3 6 11 12 7
-$EndElements
-)";
-
-const char *const vtk = R"(# vtk DataFile Version 3.0
-two cubes
-ASCII
-DATASET UNSTRUCTURED_GRID
-POINTS 12 double
-0 0 0
-1 0 0
-1 1 0
-0 1 0
-0 0 1
-1 0 1
-1 1 1
-0 1 1
-2 0 0
-2 1 0
-2 0 1
-2 1 1
-
-CELLS 2 18
-8 0 1 2 3 4 5 6 7
-8 1 8 9 2 5 10 11 6
-
-CELL_TYPES 2
-12
-12
-)";
-
-const char *const abaqus = R"(*HEADING
-two cubes
-*NODE
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-9, 2, 0, 0
-10, 2, 1, 0
-11, 2, 0, 1
-12, 2, 1, 1
-*ELEMENT, TYPE=C3D8, ELSET=EB1
-1, 1, 2, 3, 4, 5, 6, 7, 8
-2, 2, 9, 10, 3, 6, 11, 12, 7
-)";
-
-TEST(MeshImport, reads_gmsh_vtk_and_abaqus)
-{
-  for (const std::string &file :
-       {write("cubes.msh", gmsh), write("cubes.vtk", vtk),
-        write("cubes.inp", abaqus)})
-  {
-    const HexMesh mesh =
-        read_mesh(file, 1e-3, {{1e-3, 0., 0.}}, {}, "Bodies/a/Mesh file");
-    EXPECT_EQ(mesh.cells.size(), 2u) << file;
-    EXPECT_EQ(mesh.nodes.size(), 12u) << file;
-    EXPECT_NEAR(volume(mesh), 2e-9, 1e-21) << file;
-    EXPECT_EQ(mesh.boundary_faces.size(), 10u) << file;
-    EXPECT_NEAR(measure_quality(mesh).scaled_jacobian, 1., 1e-12) << file;
-    double low = 1.;
-    for (const auto &p : mesh.nodes)
-      low = std::min(low, p[0]);
-    EXPECT_NEAR(low, 1e-3, 1e-15);
-  }
-}
-
-TEST(MeshImport, takes_boundary_and_material_ids)
-{
-  const std::string file = write("cubes.msh", gmsh);
-  const HexMesh all =
-      read_mesh(file, 1., {{0., 0., 0.}}, {}, "Bodies/a/Mesh file");
-  int n_marked = 0;
-  for (std::size_t f = 0; f < all.boundary_faces.size(); ++f)
-    if (all.boundary_id[f] == 7)
-    {
-      ++n_marked;
-      for (const GlobalIndex a : all.boundary_faces[f])
-        EXPECT_NEAR(all.nodes[a][0], 0., 1e-12);
-    }
-  EXPECT_EQ(n_marked, 1);
-  const HexMesh part =
-      read_mesh(file, 1., {{0., 0., 0.}}, 2, "Bodies/a/Mesh file");
-  ASSERT_EQ(part.cells.size(), 1u);
-  for (const auto &p : part.nodes)
-    EXPECT_GT(p[0], 0.99);
-}
-
-TEST(MeshImport, says_what_is_wrong)
-{
-  const auto message = [](const std::string &file)
-  {
-    try
-    {
-      read_mesh(file, 1., {{0., 0., 0.}}, {}, "Bodies/a/Mesh file");
-    }
-    catch (const InputError &e)
-    {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
-  EXPECT_NE(message("a.exo").find("Exodus"), std::string::npos);
-  EXPECT_NE(message("a.stl").find(".msh"), std::string::npos);
-  EXPECT_NE(message("/nowhere/a.msh").find("cannot open"), std::string::npos);
-  EXPECT_NE(message(write("bad.msh", "no mesh at all\n")).find("cannot read"),
-            std::string::npos);
-  EXPECT_NE(message(write("bad.vtk", "nothing\n")).find("cannot read"),
-            std::string::npos);
 }
 
 /** Integral of the outward normal over the boundary: 0 where it is closed. */

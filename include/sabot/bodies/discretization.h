@@ -74,10 +74,11 @@ public:
   }
 };
 
-/** The names of a shape's faces in words; empty where there is no shape. */
+/** The names of a shape's faces in words, and that planes are names, too; empty
+    where there is no shape. */
 inline std::string face_names(const BodyShape *const shape)
 {
-  return shape == nullptr ? "" : shape->face_names();
+  return shape == nullptr ? "" : shape->face_names() + "; or x = 0 mm, a plane";
 }
 } // namespace sabot
 

@@ -1,28 +1,22 @@
 #ifndef sabot_geometry_mesh_import_h
 #define sabot_geometry_mesh_import_h
 
-#include "sabot/geometry/hex_mesh.h"
+#include "sabot/geometry/mesh_check.h"
+#include "sabot/geometry/named_mesh.h"
 
-#include <optional>
 #include <string>
 
 namespace sabot
 {
 /**
- * Hexahedra from a file by deal.II's GridIn: gmsh (.msh), Abaqus (.inp), VTK
- * (.vtk); the boundary ids are the file's.
- * @param unit         length of a unit of the file's coordinates [m]
- * @param origin       where the file's origin lies [m]
- * @param material_id  only cells with this material id of the file; nothing:
- * all
- * @param path         entry that names the file, for messages
- * Throws InputError for what cannot be read, for Exodus (Debian's deal.II has
- * no reader for it) and for cells that are not hexahedra.
+ * Hexahedra from a file of one of the formats of Registry<MeshReader>, checked
+ * (mesh_check.h). Faces go by the names and numbers of the file's sets of faces
+ * and nodes; 0 are those in no set.
+ * Throws InputError for what cannot be read or makes no mesh of hexahedra, with
+ * the line or the cell and what would help. Not collective, the same on every
+ * rank.
  */
-HexMesh read_mesh(const std::string &file, const double unit,
-                  const std::array<double, 3> &origin,
-                  const std::optional<unsigned int> material_id,
-                  const std::string &path);
+NamedMesh read_mesh(const MeshFile &file, const MeshWish &wish);
 
 /** How well shaped the cells of a mesh are. */
 struct MeshQuality
@@ -33,6 +27,8 @@ struct MeshQuality
   /** Largest ratio of a cell's longest to its shortest edge. */
   double aspect_ratio = 1.;
   std::array<double, 3> worst{{0., 0., 0.}}; // a corner of the first's cell [m]
+  /** Whether a cell's Jacobian is not positive inside. */
+  bool is_inverted = false;
   std::string text() const;
 };
 

@@ -4,6 +4,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/registry.h"
 #include "sabot/geometry/carving.h"
+#include "sabot/geometry/named_mesh.h"
 #include "sabot/geometry/particle_cloud.h"
 
 #include <array>
@@ -17,13 +18,6 @@ namespace sabot
 /** Names of a box's faces by boundary id; cut planes of other shapes are called
     the same. */
 extern const std::array<const char *, 6> box_faces;
-
-/** A mesh and the names of its faces by boundary id. */
-struct NamedMesh
-{
-  HexMesh mesh;
-  std::vector<std::string> faces;
-};
 
 /** What a shape needs to know of the body that it is the shape of. */
 struct ShapeRequest

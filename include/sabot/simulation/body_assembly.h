@@ -35,7 +35,7 @@ public:
 
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<CarvedZone> zones;
-  std::vector<std::string> notes; // what the meshes are like
+  std::vector<std::string> notes, warnings; // what the meshes are like
 
 private:
   /**
@@ -60,6 +60,9 @@ private:
    */
   NamedMesh make_mesh(const std::string &path, const double cell_size,
                       const Carving *carving);
+  /** Makes the planes known that the body's entries and its loads list among
+      faces. */
+  void name_planes_of(const std::string &path, NamedMesh &made) const;
   /** Its subsection with material, shape and mesh, as BodyRequest. */
   std::unique_ptr<Body> make_body(const std::string &name, const int id);
   /** By the bodies as they were built: numbers, bounds and spacing [m]. */

@@ -68,9 +68,8 @@ public:
     options.cell_size = request.shape.follows_cell_size()
                             ? cell_size(prm)
                             : typical_cell_size(made.mesh);
-    const auto ids = [&](const char *const entry) {
-      return face_ids(request.path + "/" + entry, prm.get(entry), made.faces);
-    };
+    const auto ids = [&](const char *const entry)
+    { return find_face_ids(request.path + "/" + entry, prm.get(entry), made); };
     options.clamped_boundary_ids = ids("Clamped faces");
     options.symmetry_boundary_ids = ids("Symmetry faces");
     options.driven_boundary_ids = ids("Driven faces");

@@ -1,8 +1,8 @@
 // Particles as a choice of scenes: entries, checks, construction.
 #include "sabot/bodies/discretization.h"
 #include "sabot/bodies/spg/spg_body.h"
-#include "sabot/geometry/face_names.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,13 +10,42 @@ namespace sabot
 {
 namespace
 {
+/** The faces of the box that a lattice fills, as one cell has them: names by
+    box_faces, places for planes. */
+NamedMesh faces_of_box(const ParticleCloud &cloud)
+{
+  std::array<double, 3> low = cloud.position[0], high = low;
+  for (const auto &x : cloud.position)
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d] = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+    }
+  NamedMesh box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.mesh.nodes.push_back(
+        {{corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+          corner & 4 ? high[2] : low[2]}});
+  for (unsigned int id = 0; id < box_faces.size(); ++id)
+  {
+    const GlobalIndex axis = 1 << id / 2, b = axis == 1 ? 2 : 1,
+                      c = axis == 4 ? 2 : 4, first = id % 2 * axis;
+    box.mesh.boundary_faces.push_back(
+        {{first, first + b, first + b + c, first + c}});
+    box.mesh.boundary_id.push_back(id);
+    box.faces.push_back(box_faces[id]);
+  }
+  return box;
+}
+
 /** Bits as in ParticleCloud::on_face of the faces that an entry lists. */
 std::uint32_t face_bits(const BodyRequest &request, const std::string &entry,
-                        const std::vector<std::string> &faces)
+                        const NamedMesh &faces)
 {
   const std::string path = request.path + "/" + entry;
   std::uint32_t bits = 0;
-  for (const unsigned int face : face_ids(path, request.prm.get(entry), faces))
+  for (const unsigned int face :
+       find_face_ids(path, request.prm.get(entry), faces))
   {
     if (face >= ParticleCloud::n_faces)
       throw InputError(path, "names the boundary id " + std::to_string(face) +
@@ -65,19 +94,24 @@ public:
                        "has " + std::to_string(spacing.size()) +
                            " values; give one, or three for a box with a "
                            "lattice of its own");
-    std::vector<std::string> faces(box_faces.begin(), box_faces.end());
+    NamedMesh faces;
     ParticleCloud cloud;
     if (has_lattice)
     {
       spacing.resize(3, spacing[0]);
       cloud = request.shape.lattice(request.prm,
                                     {{spacing[0], spacing[1], spacing[2]}});
+      faces = faces_of_box(cloud);
+      for (const char *const entry : {"Symmetry faces", "Clamped faces"})
+        name_planes(faces, request.path + "/" + entry, request.prm.get(entry),
+                    false);
     }
     else
     {
       const NamedMesh mesh =
           request.cells ? std::move(*request.cells) : request.mesh(spacing[0]);
-      faces = mesh.faces;
+      faces.faces = mesh.faces;
+      faces.groups = mesh.groups;
       cloud = make_mesh_cloud(mesh.mesh);
       if (!request.cells && !request.shape.follows_cell_size())
         follow_spacing(request.prm, request.file, request.path,

@@ -31,21 +31,34 @@ class File : public BodyShape
 public:
   static void declare(Parameters &prm)
   {
+    std::string formats;
+    for (const auto &format : Registry<MeshReader>::entries())
+      formats += " " + format.name + ": " + format.description;
     prm.declare_entry("Mesh file", "", any_text(),
-                      "Hexahedra from gmsh (.msh), Abaqus (.inp) or VTK "
-                      "(.vtk), looked up beside the parameter file; its origin "
-                      "is put at the center. Faces are named by the file's "
-                      "boundary ids.");
+                      "Hexahedra, looked up beside the parameter file; the "
+                      "file's origin is put at the center." +
+                          formats +
+                          " Others are converted by meshio, where it is "
+                          "installed.");
     prm.declare_entry("Mesh unit", "1 m",
                       quantity(Dimension::length, 1e-9, 1e3),
                       "Length of a unit of the file's coordinates.");
-    prm.declare_entry("Mesh material id", "all", word_or("all", integer(-1)),
-                      "Only cells with this material id of the file.");
+    prm.declare_entry(
+        "Mesh material id", "all", any_text(),
+        "Only cells of this part of the file, by number or name: "
+        "physical volume of gmsh; set of elements, part, instance "
+        "or section's material of Abaqus; id of VTK; 0: in none.");
+    prm.declare_entry("Join nodes within", "never",
+                      word_or("never", quantity(Dimension::length, 1e-12, 1.)),
+                      "Nodes of the file that are nearer to each other become "
+                      "one: joins halves whose common nodes are doubled.");
   }
 
   std::string face_names() const override
   {
-    return "the boundary ids of the file";
+    return "the names or numbers of the file: physical surfaces of gmsh, "
+           "surfaces and sets of nodes of Abaqus, ids of VTK, 0 for faces in "
+           "none";
   }
 
   NamedMesh mesh(const ShapeRequest &request) const override
@@ -55,26 +68,16 @@ public:
     const std::string resolved =
         beside(request.file, entry, prm.get("Mesh file"));
     prm.set("Mesh file", resolved); // for the expanded parameters
-    NamedMesh made;
-    made.mesh = read_mesh(resolved, get_quantity(prm, "Mesh unit"),
-                          get_vector(prm, "Center"), material_id(prm), entry);
-    for (const unsigned int id : made.mesh.boundary_id)
-      while (made.faces.size() <= id)
-        made.faces.push_back(std::to_string(made.faces.size()));
-    return made;
+    MeshWish wish;
+    wish.unit = get_quantity(prm, "Mesh unit");
+    wish.origin = get_vector(prm, "Center");
+    wish.part = prm.get("Mesh material id");
+    wish.part_path = request.path + "/Mesh material id";
+    wish.joining = get_optional_quantity(prm, "Join nodes within");
+    return read_mesh({resolved, entry}, wish);
   }
 
   bool follows_cell_size() const override { return false; }
-
-private:
-  static std::optional<unsigned int> material_id(const Parameters &prm)
-  {
-    const std::string text = prm.get("Mesh material id");
-    // -1 was a word for all.
-    return text == "all" || text == "-1"
-               ? std::nullopt
-               : std::optional<unsigned int>(std::stoul(text));
-  }
 };
 
 const Registry<BodyShape>::Add file({"file", "a mesh of hexahedra from a file.",

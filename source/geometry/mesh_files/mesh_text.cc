@@ -1,0 +1,182 @@
+// Words and numbers of mesh files, none of them trusted.
+#include "sabot/geometry/mesh_text.h"
+
+#include "sabot/base/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <sys/stat.h>
+
+namespace sabot
+{
+namespace
+{
+bool is_blank(const char c)
+{
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\0' ||
+         c == '\v' || c == '\f';
+}
+
+/** from_chars() takes no plus sign. */
+std::string_view without_plus(std::string_view word)
+{
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-')
+    word.remove_prefix(1);
+  return word;
+}
+
+/** What stood there, short enough for a message and free of odd bytes. */
+std::string quoted(const std::string_view word)
+{
+  std::string shown;
+  for (const char c : word.substr(0, 40))
+    shown += c >= ' ' && c <= '~' ? c : '?';
+  return "\"" + shown + (word.size() > 40 ? "...\"" : "\"");
+}
+} // namespace
+
+std::optional<std::int64_t> whole_number(std::string_view word)
+{
+  word = without_plus(word);
+  std::int64_t value = 0;
+  const auto end = word.data() + word.size();
+  const auto found = std::from_chars(word.data(), end, value);
+  if (word.empty() || found.ec != std::errc() || found.ptr != end)
+    return std::nullopt;
+  return value;
+}
+
+std::optional<double> real_number(std::string_view word)
+{
+  word = without_plus(word);
+  std::string changed;
+  if (word.find_first_of("dD") != std::string_view::npos)
+  {
+    changed = word;
+    for (char &c : changed)
+      c = c == 'd' || c == 'D' ? 'e' : c;
+    word = changed;
+  }
+  double value = 0.;
+  const auto end = word.data() + word.size();
+  const auto found = std::from_chars(word.data(), end, value);
+  if (word.empty() || found.ec != std::errc() || found.ptr != end ||
+      !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+void MeshFile::refuse(const std::string &why, const std::size_t line) const
+{
+  throw InputError(
+      path, "cannot read the mesh file \"" + name + "\"" +
+                (line > 0 ? ", line " + std::to_string(line) : std::string()) +
+                ": " + why);
+}
+
+std::string MeshFile::text() const
+{
+  struct stat status;
+  std::ifstream stream(name, std::ios::binary);
+  if (!stream || stat(name.c_str(), &status) != 0)
+    throw InputError(path, "cannot open the mesh file \"" + name + "\"");
+  if (!S_ISREG(status.st_mode))
+    throw InputError(path, "\"" + name + "\" is no file");
+  std::string all(status.st_size, '\0');
+  stream.read(&all[0], all.size());
+  all.resize(stream.gcount());
+  if (trim(all).empty())
+    refuse("it is empty");
+  return all;
+}
+
+bool MeshText::at_end()
+{
+  while (at < all.size() && is_blank(all[at]))
+    ++at;
+  return at == all.size();
+}
+
+std::string_view MeshText::word()
+{
+  if (at_end())
+    refuse("it ends before it is complete");
+  const std::size_t first = at;
+  while (at < all.size() && !is_blank(all[at]))
+    ++at;
+  return std::string_view(all).substr(first, at - first);
+}
+
+std::string_view MeshText::line()
+{
+  const std::size_t first = at;
+  at = std::min(all.find('\n', at), all.size());
+  std::string_view found = std::string_view(all).substr(first, at - first);
+  at = std::min(at + 1, all.size());
+  while (!found.empty() && is_blank(found.back()))
+    found.remove_suffix(1);
+  while (!found.empty() && is_blank(found.front()))
+    found.remove_prefix(1);
+  return found;
+}
+
+std::int64_t MeshText::integer()
+{
+  const std::string_view found = word();
+  const auto value = whole_number(found);
+  if (!value)
+    refuse(quoted(found) + " stands where a whole number should");
+  return *value;
+}
+
+double MeshText::real()
+{
+  const std::string_view found = word();
+  const auto value = real_number(found);
+  if (!value)
+    refuse(quoted(found) + " stands where a number should");
+  return *value;
+}
+
+std::size_t MeshText::count(const std::size_t bytes)
+{
+  const std::int64_t n = integer();
+  if (n < 0)
+    refuse("the count " + std::to_string(n) + " is negative");
+  expect(n, bytes);
+  return n;
+}
+
+void MeshText::expect(const std::uint64_t n, const std::size_t bytes)
+{
+  if (bytes > 0 && n > (all.size() - at) / bytes)
+    refuse(n == 1 ? "it ends before it is complete"
+                  : "it announces " + std::to_string(n) +
+                        " entries, but ends before there can be as many");
+}
+
+void MeshText::skip_behind(const std::string &mark)
+{
+  while (at < all.size())
+  {
+    const std::size_t found = all.find(mark, at);
+    if (found == std::string::npos)
+      break;
+    at = found + mark.size();
+    if (found == 0 || all[found - 1] == '\n')
+      return;
+  }
+  at = all.size();
+  refuse("the line " + mark + " is missing");
+}
+
+void MeshText::refuse(const std::string &why) const
+{
+  // The line of the word that was read last.
+  const std::size_t end = at > 0 ? at - 1 : 0;
+  file.refuse(why, 1 + std::count(all.begin(), all.begin() + end, '\n'));
+}
+} // namespace sabot
