@@ -134,14 +134,15 @@ ExitCode plan_scene(const Arguments &arguments)
   return with_scene(file,
                     [&](Scene &scene)
                     {
-                      const PhysicsPlan physics = plan_physics(scene);
+                      PhysicsPlan physics = plan_physics(scene);
                       constexpr double calibration_seconds = 1.;
                       const CostPlan cost = plan_cost(
                           scene, physics, calibration_seconds, MPI_COMM_WORLD);
                       if (!is_first_rank())
                         return ExitCode::done;
-                      for (const std::string &warning : scene.warnings)
-                        std::cout << "warning: " << warning << "\n";
+                      physics.warnings.insert(physics.warnings.begin(),
+                                              scene.warnings.begin(),
+                                              scene.warnings.end());
                       std::cout << to_text(physics, cost) << std::flush;
                       if (!arguments.json_file.empty())
                         write_text(arguments.json_file,

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -63,17 +64,52 @@ struct Line
   std::string text;
 };
 
-/** The lines of @p file that say something. */
-std::vector<Line> read_lines(const std::string &file,
-                             const std::string &included_at)
+/** The text of @p file with line ends and blanks as they are here, whatever
+    editor has saved it. */
+std::string read_text(const std::string &file, const std::string &included_at)
 {
-  std::ifstream stream(file);
-  std::stringstream content(
-      std::string{std::istreambuf_iterator<char>(stream), {}});
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
     fail(included_at, "",
          "cannot read parameter file \"" + file +
              "\"; check its name and that it is a readable text file");
+  const auto begins_with = [&](const std::string &mark)
+  { return text.compare(0, mark.size(), mark) == 0; };
+  if (begins_with("\xff\xfe") || begins_with("\xfe\xff") ||
+      text.find('\0') != std::string::npos)
+    fail(file, "",
+         "is no text in UTF-8 but in UTF-16, or binary; save it as UTF-8");
+  const std::string byte_order_mark = "\xef\xbb\xbf";
+  if (begins_with(byte_order_mark))
+    text.erase(0, byte_order_mark.size());
+  text = replaced(replaced(std::move(text), "\r\n", "\n"), "\r", "\n");
+  for (const std::string blank : {"\u00a0", "\u2009", "\u202f"})
+    text = replaced(std::move(text), blank, " ");
+  return text;
+}
+
+/** InputError where @p text is not UTF-8: nothing that reads the results could
+    read it. */
+void check_encoding(const std::string &origin, const std::string &text)
+{
+  const auto at = first_not_utf8(text);
+  if (!at)
+    return;
+  char byte[8];
+  std::snprintf(byte, sizeof(byte), "0x%02x",
+                static_cast<unsigned char>(text[*at]));
+  // Only what is before it can be shown.
+  fail(origin, "",
+       "the byte " + std::string(byte) + " after \"" + text.substr(0, *at) +
+           "\" is not UTF-8 (a letter in Latin-1?); save the file as UTF-8");
+}
+
+/** The lines of @p file that say something. */
+std::vector<Line> read_lines(const std::string &file,
+                             const std::string &included_at)
+{
+  std::stringstream content(read_text(file, included_at));
   std::vector<Line> lines;
   std::string line;
   for (unsigned int n = 1; std::getline(content, line); ++n)
@@ -88,8 +124,11 @@ std::vector<Line> read_lines(const std::string &file,
       ++n;
       text = trim(text + trim(line.substr(0, line.find('#'))));
     }
-    if (!trim(text).empty())
-      lines.push_back({first, trim(text)});
+    text = trim(text);
+    if (text.empty())
+      continue;
+    check_encoding(file + ":" + std::to_string(first), text);
+    lines.push_back({first, text});
   }
   return lines;
 }
@@ -131,6 +170,7 @@ ParameterFile::ParameterFile(const std::string &file,
   read(file, "", section, open_files);
   for (const std::string &text : overrides)
   {
+    check_encoding("--set", text);
     const auto [path, value] = assignment(text);
     if (path.empty())
       fail("--set \"" + text + "\"", "",
@@ -151,10 +191,17 @@ void ParameterFile::read(const std::string &file,
                          std::vector<std::string> &section,
                          std::vector<std::string> &open_files)
 {
-  if (std::find(open_files.begin(), open_files.end(), file) != open_files.end())
+  std::error_code ignored;
+  const std::string known_as =
+      std::filesystem::weakly_canonical(file, ignored).string();
+  if (std::find(open_files.begin(), open_files.end(), known_as) !=
+      open_files.end())
     fail(included_at, "", "file \"" + file + "\" includes itself");
+  // What several files of a family include says the same each time.
+  if (!included.insert({path_of(section), known_as}).second)
+    return;
   const std::vector<Line> lines = read_lines(file, included_at);
-  open_files.push_back(file);
+  open_files.push_back(known_as);
   const std::size_t depth = section.size();
   std::vector<std::string> opened; // origin of each open subsection
   for (const Line &line : lines)
@@ -187,7 +234,8 @@ void ParameterFile::read(const std::string &file,
       if (name.empty())
         fail(origin, path_of(section),
              "expected \"set Name = value\", found \"" + text + "\"");
-      add({section, name, value, origin, file});
+      // The apostrophe of typographers, as in Young's modulus.
+      add({section, replaced(name, "\u2019", "'"), value, origin, file});
     }
     else if (word == "include" && !rest.empty())
       read(rest[0] == '/' ? rest : folder_of(file) + rest, origin, section,

@@ -114,6 +114,9 @@ void Parameters::declare_entry(const std::string &name,
                                const std::string &meaning)
 {
   prm->declare_entry(name, standard, pattern.get(), meaning);
+  std::vector<std::string> path = section;
+  path.push_back(name);
+  declared.insert(path);
 }
 
 void Parameters::declare_knob(const std::string &name,
@@ -185,14 +188,17 @@ long Parameters::get_integer(const std::string &name) const
 
 bool Parameters::is_declared(const std::string &name) const
 {
-  const std::vector<std::string> names = entry_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
+  std::vector<std::string> path = section;
+  path.push_back(name);
+  return declared.count(path) > 0;
 }
 
 std::vector<std::string> Parameters::entry_names() const
 {
   std::vector<std::string> names;
-  const nlohmann::ordered_json tree = declared_tree(*this);
+  nlohmann::ordered_json tree = declared_tree(*this);
+  for (const std::string &name : section)
+    tree = nlohmann::ordered_json(tree.value(name, nlohmann::ordered_json()));
   for (const auto &item : tree.items())
     if (is_entry(item.value()))
       names.push_back(item.key());
@@ -251,6 +257,12 @@ std::optional<double> read_quantity(const std::string &text)
     if (QuantityPattern(static_cast<Dimension>(d)).match(text))
       return to_si(text);
   return std::nullopt;
+}
+
+bool is_told_in(const std::string &text, const std::string &unit)
+{
+  return QuantityPattern(dimension_of_unit(unit).value_or(Dimension::none))
+      .match(text);
 }
 
 std::vector<std::string> split_names(const std::string &text)

@@ -99,9 +99,24 @@ const char *dimension_name(const Dimension dimension)
   return "";
 }
 
-/** Number and unit; false when the text is no finite number. */
-bool read_number(const std::string &text, double &number, std::string &unit)
+/** @p text with the minus of typographers, micro signs and raised digits as a
+    keyboard has them. */
+std::string plain(std::string text)
 {
+  const char *const signs[][2] = {{"\u2212", "-"},
+                                  {"\u00b5", "u"},
+                                  {"\u03bc", "u"},
+                                  {"\u00b2", "^2"},
+                                  {"\u00b3", "^3"}};
+  for (const auto &[sign, key] : signs)
+    text = replaced(std::move(text), sign, key);
+  return text;
+}
+
+/** Number and unit; false when the text is no finite number. */
+bool read_number(const std::string &given, double &number, std::string &unit)
+{
+  const std::string text = plain(given);
   char *end;
   number = std::strtod(text.c_str(), &end);
   if (end == text.c_str() || !std::isfinite(number))
@@ -146,6 +161,13 @@ double to_si(const std::string &text)
   if (unit == nullptr)
     throw std::invalid_argument("unknown unit in \"" + text + "\"");
   return number * unit->in_si;
+}
+
+std::optional<Dimension> dimension_of_unit(const std::string &name)
+{
+  const Unit *const unit = find_unit(name);
+  return unit == nullptr ? std::nullopt
+                         : std::optional<Dimension>(unit->dimension);
 }
 
 QuantityPattern::QuantityPattern(const Dimension dimension, const double min,

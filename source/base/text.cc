@@ -41,6 +41,45 @@ std::string formatted(const char *pattern, const double value)
   return text;
 }
 
+std::optional<std::size_t> first_not_utf8(const std::string &text)
+{
+  const auto byte = [&](const std::size_t i) -> unsigned int
+  { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const unsigned int lead = byte(i);
+    const int n_more = lead < 0x80                   ? 0
+                       : lead >= 0xc2 && lead < 0xe0 ? 1
+                       : lead >= 0xe0 && lead < 0xf0 ? 2
+                       : lead >= 0xf0 && lead < 0xf5 ? 3
+                                                     : -1;
+    if (n_more < 0)
+      return i;
+    unsigned int code = n_more == 0 ? lead : lead & (0x3f >> n_more);
+    for (int k = 1; k <= n_more; ++k)
+    {
+      if ((byte(i + k) & 0xc0) != 0x80)
+        return i;
+      code = code << 6 | (byte(i + k) & 0x3f);
+    }
+    const bool is_surrogate = code >= 0xd800 && code < 0xe000;
+    if (is_surrogate || code > 0x10ffff || (n_more == 2 && code < 0x800) ||
+        (n_more == 3 && code < 0x10000))
+      return i;
+    i += 1 + n_more;
+  }
+  return std::nullopt;
+}
+
+std::string replaced(std::string text, const std::string &part,
+                     const std::string &other)
+{
+  for (std::size_t i = 0; (i = text.find(part, i)) != std::string::npos;
+       i += other.size())
+    text.replace(i, part.size(), other);
+  return text;
+}
+
 std::vector<std::string> lines_of(const std::string &file)
 {
   std::vector<std::string> lines;

@@ -1,6 +1,8 @@
 // Prescribed velocities of nodes, and the work that they do.
 #include "sabot/bodies/velocity_constraints.h"
 
+#include <algorithm>
+
 namespace sabot
 {
 void VelocityConstraints::prescribe(const std::size_t i, const int axis,
@@ -22,6 +24,16 @@ void VelocityConstraints::finish()
     has_work = has_work || norm_square(held.back().value) > 0.;
   }
   collected.clear();
+}
+
+std::pair<Vec, Vec> VelocityConstraints::held_at(const std::size_t i) const
+{
+  const auto at = std::lower_bound(held.begin(), held.end(), i,
+                                   [](const Held &h, const std::size_t node)
+                                   { return h.node < node; });
+  if (at == held.end() || at->node != i)
+    return {vec(1., 1., 1.), Vec{}};
+  return {at->free, at->value};
 }
 
 void VelocityConstraints::impose(NodalState &nodes) const

@@ -21,23 +21,29 @@ std::size_t owned_number(const NodalState &nodes, const GlobalIndex id)
 
 Tie::Tie(const std::string &name, const std::vector<Body *> &bodies,
          const int follower, const int leader, const double tolerance,
-         MPI_Comm communicator)
+         MPI_Comm communicator, const std::shared_ptr<TiedNodes> &others)
     : Coupling(name), bodies(bodies), follower(follower), leader(leader),
-      tolerance(tolerance), communicator(communicator)
+      tolerance(tolerance), communicator(communicator),
+      others(others ? others : std::make_shared<TiedNodes>())
 {
 }
 
 void Tie::initialize()
 {
   std::vector<Constraint> constraints = find_constraints();
+  leave_to_others(constraints);
   n_constraints = constraints.size();
   if (n_constraints == 0)
     throw InputError("Couplings/" + name,
-                     "no node of body \"" + bodies[follower]->name +
-                         "\" lies on the surface of body \"" +
-                         bodies[leader]->name +
-                         "\": check zone, sizes and positions");
+                     (left_out.empty()
+                          ? "no node of body \"" + bodies[follower]->name +
+                                "\" lies on the surface of body \"" +
+                                bodies[leader]->name + "\""
+                          : left_out + ": nothing is left to tie") +
+                         ": check zone, sizes and positions");
   step_factor = keep_mass(constraints);
+  refuse_chains(constraints);
+  refuse_held(constraints);
   prepare_motion(constraints);
   prepare_forces(constraints);
 
@@ -186,6 +192,13 @@ StableStep Tie::stable_step() const
     step = other;
   step.dt *= step_factor;
   return step;
+}
+
+std::vector<std::string> Tie::warnings() const
+{
+  return left_out.empty()
+             ? std::vector<std::string>()
+             : std::vector<std::string>{"tie \"" + name + "\": " + left_out};
 }
 
 Measures Tie::measure() const

@@ -39,10 +39,12 @@ public:
       throw InputError(path + "/Follower",
                        "a rigid body cannot follow another");
     context.tied.insert({follower, leader});
+    if (!context.tied_nodes)
+      context.tied_nodes = std::make_shared<TiedNodes>();
     std::vector<std::unique_ptr<Coupling>> ties;
-    ties.push_back(std::make_unique<Tie>(name, context.bodies, follower, leader,
-                                         get_quantity(prm, "Tolerance"),
-                                         context.communicator));
+    ties.push_back(std::make_unique<Tie>(
+        name, context.bodies, follower, leader, get_quantity(prm, "Tolerance"),
+        context.communicator, context.tied_nodes));
     return ties;
   }
 };

@@ -1,4 +1,6 @@
 // Cylinders of hexahedra: an o-grid of quadrilaterals, extruded.
+#include "sabot/base/text.h"
+#include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_extraction.h"
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/particle_cloud.h"
@@ -19,15 +21,14 @@ namespace
 class Disc
 {
 public:
+  /** Throws TooManyItems where that many of it in @p n_layers would be. */
   Disc(const double radius, const double cell_size,
-       const CylinderGrading &grading)
+       const CylinderGrading &grading, const double n_layers)
       : radius(radius), zone(grading.zone_radius.value_or(0.) / radius),
         core(zone > 0.             ? 0.55 * zone
              : grading.core_radius ? *grading.core_radius / radius
                                    : 0.55),
-        n(2 *
-          std::max(1u, n_intervals(0.4 / 0.55 * core * radius * std::sqrt(2.),
-                                   cell_size)))
+        n(count_core(cell_size, grading, n_layers))
   {
     add_core();
     add_rings(cell_size, grading);
@@ -78,6 +79,35 @@ private:
     bool beyond;
   };
 
+  /** Cells across the core, after a look at how many there are in all. */
+  unsigned int count_core(const double cell_size,
+                          const CylinderGrading &grading,
+                          const double n_layers) const
+  {
+    const double across =
+        2. * count_of_intervals(0.4 / 0.55 * core * radius * std::sqrt(2.),
+                                cell_size);
+    double n_rings =
+        zone > 0. ? count_of_intervals(0.5 * zone * radius, cell_size) : 0.;
+    n_rings += grading.growth_ratio > 1.
+                   ? count_of_growing(shell(), cell_size,
+                                      grading.coarsest_cell_size,
+                                      grading.growth_ratio)
+                   : count_of_intervals(shell(), cell_size);
+    check_memory_for((across * across + 4. * across * n_rings) * n_layers,
+                     Item::cell,
+                     formatted("%.6g across the core, ", across) +
+                         formatted("%.6g rings, ", n_rings) +
+                         formatted("%.6g layers", n_layers));
+    return across;
+  }
+
+  /** Thickness of what is around the core, or around the zone. */
+  double shell() const
+  {
+    return radius * (zone > 0. ? 1. - zone : 1. - core * 0.5 / 0.55);
+  }
+
   unsigned int core_index(const unsigned int i, const unsigned int j) const
   {
     return i + (n + 1) * j;
@@ -127,8 +157,7 @@ private:
                                    const CylinderGrading &grading) const
   {
     std::vector<double> heights;
-    const double shell =
-        radius * (zone > 0. ? 1. - zone : 1. - core * 0.5 / 0.55);
+    const double shell = this->shell();
     if (grading.growth_ratio > 1.)
       for (const double size :
            growing_sizes(shell, cell_size, grading.coarsest_cell_size,
@@ -217,7 +246,7 @@ HexMesh make_cylinder(const double radius, const double length,
                       const double cell_size, const unsigned int n_cuts,
                       const CylinderGrading &grading)
 {
-  Disc disc(radius, cell_size, grading);
+  Disc disc(radius, cell_size, grading, count_of_intervals(length, cell_size));
   disc.cut(n_cuts);
   dealii::Triangulation<2> section;
   disc.make(section);

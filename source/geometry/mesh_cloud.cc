@@ -110,6 +110,9 @@ void add_faces(const HexMesh &mesh, ParticleCloud &cloud)
     const Vec area = 0.125 * cross(x[2] - x[0], x[3] - x[1]);
     for (const GlobalIndex a : face)
       cloud.face_shares.push_back({std::size_t(a), mesh.boundary_id[f], area});
+    cloud.skin.push_back({{std::size_t(face[0]), std::size_t(face[1]),
+                           std::size_t(face[2]), std::size_t(face[3])}});
+    cloud.skin_id.push_back(mesh.boundary_id[f]);
   }
   cloud.on_face.assign(mesh.nodes.size(), 0);
   cloud.face_axis.clear();

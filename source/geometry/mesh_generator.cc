@@ -2,6 +2,8 @@
 #include "sabot/geometry/mesh_generator.h"
 
 #include "sabot/base/error.h"
+#include "sabot/base/text.h"
+#include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_extraction.h"
 #include "sabot/geometry/particle_cloud.h"
 
@@ -72,12 +74,17 @@ namespace
 {
 using Planes = std::array<std::vector<double>, 3>;
 
-/** Grid planes of a box along the three axes, fine over the zone. Throws
-    InputError where the zone is not inside the box. */
-Planes planes_of(const BoxSpecification &box)
+/** Where a box begins and ends along an axis, and its fine part. */
+struct Range
 {
-  Planes planes;
-  bool zone_inside = true;
+  double low, high, inner_low, inner_high; // [m]
+};
+
+/** Along the three axes. Throws InputError where the zone is not inside the
+    box. */
+std::array<Range, 3> ranges_of(const BoxSpecification &box)
+{
+  std::array<Range, 3> ranges;
   for (unsigned int d = 0; d < 3; ++d)
   {
     const double low = box.center[d] - 0.5 * box.size[d],
@@ -88,17 +95,49 @@ Planes planes_of(const BoxSpecification &box)
       inner_low = box.zone_center[d] - 0.5 * box.zone_size[d];
       inner_high = box.zone_center[d] + 0.5 * box.zone_size[d];
       const double tolerance = 1e-6 * box.size[d];
-      zone_inside = zone_inside && inner_low > low - tolerance &&
-                    inner_high < high + tolerance;
+      if (!(inner_low > low - tolerance && inner_high < high + tolerance))
+        throw InputError(box.zone_path + "/Size",
+                         "the zone reaches outside the body that it is "
+                         "part of: along " +
+                             std::string(1, "xyz"[d]) +
+                             formatted(" from %.6g", 1e3 * inner_low) +
+                             formatted(" to %.6g mm", 1e3 * inner_high) +
+                             formatted(", the body from %.6g", 1e3 * low) +
+                             formatted(" to %.6g mm", 1e3 * high) +
+                             "; make it smaller or move its center");
     }
-    planes[d] = graded_planes(low, high, std::max(inner_low, low),
-                              std::min(inner_high, high), box.cell_size,
-                              box.coarsest_cell_size, box.growth_ratio);
+    ranges[d] = {low, high, std::max(inner_low, low),
+                 std::min(inner_high, high)};
   }
-  if (!zone_inside)
-    throw InputError(box.zone_path + "/Size",
-                     "the zone reaches outside the body that it is "
-                     "part of; make it smaller or move its center");
+  return ranges;
+}
+
+/** Grid planes of a box along the three axes, fine over the zone. Throws
+    InputError where the zone is not inside the box, TooManyItems. */
+Planes planes_of(const BoxSpecification &box)
+{
+  const std::array<Range, 3> ranges = ranges_of(box);
+  std::array<double, 3> n;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    const Range &r = ranges[d];
+    const auto n_growing = [&](const double length)
+    {
+      return count_of_growing(length > 1e-9 * (r.high - r.low) ? length : 0.,
+                              box.cell_size, box.coarsest_cell_size,
+                              box.growth_ratio);
+    };
+    n[d] = n_growing(r.inner_low - r.low) +
+           count_of_intervals(r.inner_high - r.inner_low, box.cell_size) +
+           n_growing(r.high - r.inner_high);
+  }
+  check_memory_for(n, Item::cell);
+  Planes planes;
+  for (unsigned int d = 0; d < 3; ++d)
+    planes[d] = graded_planes(ranges[d].low, ranges[d].high,
+                              ranges[d].inner_low, ranges[d].inner_high,
+                              box.cell_size, box.coarsest_cell_size,
+                              box.growth_ratio);
   return planes;
 }
 

@@ -1,6 +1,8 @@
 // Particles on the lattice of a box, and what faces do to particles.
 #include "sabot/geometry/particle_cloud.h"
 
+#include "sabot/geometry/item_count.h"
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
 
@@ -10,6 +12,42 @@
 
 namespace sabot
 {
+namespace
+{
+/** The quadrilaterals of the six faces of a lattice of @p n intervals. @p order:
+    the lattice point, x fastest, that each particle stands on. */
+void add_skin(const std::array<unsigned int, 3> &n,
+              const std::vector<std::size_t> &order, ParticleCloud &cloud)
+{
+  std::vector<std::size_t> particle(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    particle[order[i]] = i;
+  const auto at = [&](const std::array<unsigned int, 3> &p)
+  { return particle[p[0] + (n[0] + 1) * (p[1] + std::size_t(n[1] + 1) * p[2])]; };
+  for (unsigned int id = 0; id < 6; ++id)
+  {
+    // Across d; b follows c on the lower side, where outwards is downwards.
+    const unsigned int d = id / 2, b = (d + (id % 2 ? 1 : 2)) % 3,
+                       c = (d + (id % 2 ? 2 : 1)) % 3;
+    for (unsigned int j = 0; j < n[c]; ++j)
+      for (unsigned int i = 0; i < n[b]; ++i)
+      {
+        std::array<unsigned int, 3> p{};
+        p[d] = id % 2 ? n[d] : 0;
+        const auto corner = [&](const unsigned int di, const unsigned int dj)
+        {
+          p[b] = i + di;
+          p[c] = j + dj;
+          return at(p);
+        };
+        cloud.skin.push_back(
+            {{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}});
+        cloud.skin_id.push_back(id);
+      }
+  }
+}
+} // namespace
+
 unsigned int n_intervals(const double length, const double spacing)
 {
   return std::max(1u, static_cast<unsigned int>(std::lround(length / spacing)));
@@ -28,6 +66,10 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &center,
                              const std::array<double, 3> &nodal_spacing)
 {
   ParticleCloud cloud;
+  std::array<double, 3> n_points;
+  for (unsigned int d = 0; d < 3; ++d)
+    n_points[d] = count_of_intervals(size[d], nodal_spacing[d]) + 1.;
+  check_memory_for(n_points, Item::particle);
   std::array<unsigned int, 3> n;
   for (unsigned int d = 0; d < 3; ++d)
   {
@@ -78,6 +120,7 @@ ParticleCloud make_box_cloud(const std::array<double, 3> &center,
     cloud.volume.push_back(volume);
     cloud.on_face.push_back(faces);
   }
+  add_skin(n, order, cloud);
   return cloud;
 }
 

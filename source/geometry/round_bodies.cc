@@ -1,6 +1,8 @@
 // Balls and projectiles of hexahedra: six blocks of shells around a cube.
 #include "sabot/geometry/round_bodies.h"
 
+#include "sabot/base/text.h"
+#include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_extraction.h"
 #include "sabot/geometry/particle_cloud.h"
 
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace sabot
 {
@@ -159,11 +162,20 @@ private:
   std::map<std::array<int, 4>, unsigned int> number;
 };
 
-/** Cells across the core and shells for cells of about @p relative_size. */
-std::array<int, 2> divisions(const double relative_size)
+/** Cells across the core and shells for cells of about @p relative_size; of
+    the upper half with @p n_levels of cells below, or of the whole. Throws
+    TooManyItems. */
+std::array<int, 2> divisions(const double relative_size,
+                             const std::optional<double> n_levels)
 {
-  return {{int(2 * n_intervals(0.38, relative_size)),
-           int(n_intervals(0.5, relative_size))}};
+  const double n = 2. * count_of_intervals(0.38, relative_size),
+               m = count_of_intervals(0.5, relative_size);
+  const double ball = n * n * (n + 6. * m),
+               disc = n * n + 4. * n * m;
+  check_memory_for(n_levels ? 0.5 * ball + *n_levels * disc : ball, Item::cell,
+                   formatted("%.6g across the core, ", n) +
+                       formatted("%.6g shells", m));
+  return {{int(n), int(m)}};
 }
 
 double nose_radius(const ProjectileSpecification &p, const double z)
@@ -194,7 +206,7 @@ double nose_volume(const ProjectileSpecification &p)
 HexMesh make_sphere(const double radius, const std::array<double, 3> &center,
                     const double cell_size)
 {
-  const auto n = divisions(cell_size / radius);
+  const auto n = divisions(cell_size / radius, std::nullopt);
   Ball ball(n[0], n[1], false);
   dealii::Triangulation<3> mesh;
   ball.make(mesh);
@@ -209,7 +221,8 @@ HexMesh make_sphere(const double radius, const std::array<double, 3> &center,
 HexMesh make_projectile(const ProjectileSpecification &spec)
 {
   const double R = spec.radius, L = spec.nose_length, shaft = spec.shaft_length;
-  const auto n = divisions(spec.cell_size / R);
+  const auto n =
+      divisions(spec.cell_size / R, count_of_intervals(shaft, spec.cell_size));
   Ball ball(n[0], n[1], true);
   for (dealii::Point<3> &p : ball.points)
   {

@@ -3,6 +3,7 @@
 
 #include "sabot/base/registry.h"
 #include "sabot/materials/elastic_base.h"
+#include "sabot/materials/plausibility.h"
 
 #include <cmath>
 
@@ -97,6 +98,9 @@ std::unique_ptr<Material> Material::make(Parameters &prm,
   const auto eos = make_choice<EquationOfState>(prm, path, "Equation of state",
                                                 elastic, warnings);
   auto material = make_choice<Material>(prm, path, "Model", elastic, eos);
+  const std::vector<std::string> odd =
+      implausible_values(prm, path, elastic, *material);
+  warnings.insert(warnings.end(), odd.begin(), odd.end());
   material->warnings = warnings;
   return material;
 }

@@ -2,6 +2,7 @@
 #include "sabot/output/vtu_writer.h"
 
 #include "sabot/base/error.h"
+#include "sabot/output/file_names.h"
 #include "sabot/output/file_tools.h"
 
 #include <vtkCellArray.h>
@@ -46,12 +47,8 @@ void add_fields(const std::vector<OutputField> &fields,
 
 std::string body_file(const std::string &body, const unsigned int frame)
 {
-  std::string name = body;
-  for (char &c : name)
-    if (c == '/' || c == ' ' || c == '"')
-      c = '-';
   std::ostringstream stream;
-  stream << name << "_" << std::setw(6) << std::setfill('0') << frame;
+  stream << file_name_of(body) << "_" << std::setw(6) << std::setfill('0') << frame;
   return stream.str();
 }
 

@@ -2,7 +2,9 @@
 #include "sabot/simulation/body_assembly.h"
 
 #include "sabot/base/text.h"
+#include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_import.h"
+#include "sabot/geometry/mesh_layers.h"
 
 #include <algorithm>
 
@@ -112,6 +114,22 @@ void BodyAssembly::carve_meshes()
   }
 }
 
+template <typename Make>
+auto BodyAssembly::counted(const std::string &path, const Make &make) const
+{
+  try
+  {
+    return make();
+  }
+  catch (const TooManyItems &e)
+  {
+    throw InputError(path + (prm.is_declared("Nodal spacing")
+                                 ? "/Nodal spacing"
+                                 : "/Cell size"),
+                     e.what());
+  }
+}
+
 NamedMesh BodyAssembly::make_mesh(const std::string &path, const double size,
                                   const Carving *carving)
 {
@@ -120,13 +138,24 @@ NamedMesh BodyAssembly::make_mesh(const std::string &path, const double size,
   request.cell_size = size;
   request.is_graded = discretization_of(name)->may_be_carved();
   request.carving = carving;
-  NamedMesh made = shape_of(name)->mesh(request);
+  NamedMesh made = counted(path,
+                           [&]()
+                           {
+                             NamedMesh mesh = shape_of(name)->mesh(request);
+                             if (prm.is_declared("Nodal spacing"))
+                               check_memory_for(mesh.mesh.nodes.size(),
+                                                Item::particle, "its nodes");
+                             return mesh;
+                           });
   const MeshQuality quality = measure_quality(made.mesh);
   for (const std::string &note : made.notes)
     notes.push_back("mesh of " + name + ": " + note);
   notes.push_back("mesh of " + name + ": " + quality.text());
   for (const std::string &warning : made.warnings)
     warnings.push_back("mesh of \"" + name + "\": " + warning);
+  const ThinLayer layer = find_thin_layer(made.mesh);
+  if (layer.n_cells > 0)
+    warnings.push_back("mesh of \"" + name + "\": " + layer.text());
   if (quality.is_inverted)
     throw InputError(path + "/Geometry",
                      "the mesh has a cell that is inside out or flat: " +
@@ -181,7 +210,8 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
     name_planes_of(path, made->second);
     request.cells = std::move(made->second);
   }
-  return discretization_of(name)->build(request);
+  return counted(path,
+                 [&]() { return discretization_of(name)->build(request); });
 }
 
 CarvedZone BodyAssembly::record(const Carving &carving) const

@@ -173,20 +173,8 @@ void judge_zones_before(const Scene &scene, PhysicsPlan &plan)
   }
 }
 
-void judge_switches(const Scene &scene, PhysicsPlan &plan)
+void judge_symmetry(PhysicsPlan &plan)
 {
-  bool self_contact = false, contact = false;
-  for (const auto &coupling : scene.couplings)
-    for (const auto &[a, b] : coupling->holds_apart())
-      (a == b ? self_contact : contact) = true;
-  for (const PlannedBody &body : plan.bodies)
-    if (body.facts.is_particles && body.facts.may_fail && !self_contact)
-      plan.warnings.push_back("bonds of \"" + body.name +
-                              "\" may fail, but the scene has no self-contact: "
-                              "debris will pass through itself");
-  if (plan.impact.exists && !contact)
-    plan.warnings.push_back("bodies move towards each other, but the scene has "
-                            "no contact");
   if (!plan.impact.exists)
     return;
   // Symmetry about the line of flight, by boxes and velocities.
@@ -222,7 +210,7 @@ PhysicsPlan plan_physics(const Scene &scene)
   if (plan.impact.exists)
     judge_impact(scene, plan);
   judge_zones_before(scene, plan);
-  judge_switches(scene, plan);
+  judge_symmetry(plan);
   return plan;
 }
 

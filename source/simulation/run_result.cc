@@ -189,6 +189,7 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
   r["version"] = version();
   r["status"] = summary.status;
   r["reason"] = summary.reason;
+  r["warnings"] = scene.warnings;
   r["ranks"] = summary.n_ranks;
   r["steps"] = summary.steps;
   r["time"] = summary.time;

@@ -4,6 +4,7 @@
 #include "sabot/couplings/coupling_builder.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/simulation/body_assembly.h"
+#include "sabot/simulation/scene_checks.h"
 
 #include <algorithm>
 #include <iterator>
@@ -16,6 +17,7 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
 {
   declare(prm, &file);
   file.parse_into(prm);
+  check_names(prm);
   read_settings();
   build_materials(file);
   BodyAssembly assembly(prm, file, materials);
@@ -28,9 +30,11 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
                   assembly.warnings.end());
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
-  check_overlaps(*this, file);
+  const std::vector<Outline> outlines = outlines_of(*this);
+  check_overlaps(*this, outlines);
   build_loads();
-  build_couplings();
+  const auto tied = build_couplings();
+  warn_of_doubts(file, outlines, tied);
   build_outputs();
   build_quantities();
 }
@@ -64,8 +68,11 @@ void Scene::build_materials(const ParameterFile &file)
     const EnteredSubsection entered(prm, "Materials", name);
     auto material = Material::make(prm, "Materials/" + name);
     material->name = name;
-    warnings.insert(warnings.end(), material->warnings.begin(),
-                    material->warnings.end());
+    for (const std::string &warning : material->warnings)
+    {
+      const std::string path = warning.substr(0, warning.find(": "));
+      warnings.push_back(file.origin(path) + ": " + warning);
+    }
     materials[name] = std::move(material);
   }
 }
@@ -85,7 +92,7 @@ void Scene::build_loads()
   }
 }
 
-void Scene::build_couplings()
+std::set<std::pair<int, int>> Scene::build_couplings()
 {
   struct Listed
   {
@@ -111,6 +118,7 @@ void Scene::build_couplings()
       { return body_index(path, name); },
       communicator,
       {},
+      {},
       {}};
   std::vector<std::unique_ptr<Coupling>> last;
   for (const Listed &item : listed)
@@ -123,12 +131,20 @@ void Scene::build_couplings()
   }
   std::move(last.begin(), last.end(), std::back_inserter(couplings));
 
+  std::set<std::string> names;
+  for (const auto &coupling : couplings)
+    if (!names.insert(coupling->name).second)
+      throw InputError("List of couplings",
+                       "\"" + coupling->name + "\" is also what a part of "
+                           "another coupling is called in the results; rename "
+                           "it");
   warn_of_lone_debris();
   for (const CarvedZone &zone : zones)
     if (context.tied.count({zone.zone, zone.host}) == 0)
       warnings.push_back("body \"" + bodies[zone.zone]->name +
                          "\" is carved from \"" + bodies[zone.host]->name +
                          "\" but not tied to it");
+  return context.tied;
 }
 
 void Scene::warn_of_lone_debris()
@@ -242,6 +258,10 @@ void Scene::distribute()
   // Ties first: contact wants to know who follows whom.
   for (auto coupling = couplings.rbegin(); coupling != couplings.rend();
        ++coupling)
+  {
     (*coupling)->initialize();
+    const std::vector<std::string> odd = (*coupling)->warnings();
+    warnings.insert(warnings.end(), odd.begin(), odd.end());
+  }
 }
 } // namespace sabot

@@ -1,92 +1,65 @@
 // Bodies of a scene that stand in each other's place.
-#include "sabot/simulation/body_assembly.h"
+#include "sabot/simulation/scene_checks.h"
 
 #include <algorithm>
-#include <limits>
-#include <set>
+#include <cstdio>
 
 namespace sabot
 {
 namespace
 {
-constexpr double far = std::numeric_limits<double>::max();
 /** What counts as an overlap at all [m]. */
 constexpr double seen_from_outside = 1e-9;
 
-/** Bodies overlap when a node of one lies deep inside the other's shape; for
-    the boxes and cylinders of a scene their bounding boxes tell enough, but
-    for a zone and the body that it was carved from, and for what is tied. */
-struct Bounds
+double smallest_extent(const Outline &outline)
 {
-  double low[3] = {far, far, far}, high[3] = {-far, -far, -far};
-
-  explicit Bounds(const Body &body)
-  {
-    for (const auto &p : body.partition_points())
-      for (int d = 0; d < 3; ++d)
-      {
-        low[d] = std::min(low[d], p[d]);
-        high[d] = std::max(high[d], p[d]);
-      }
-  }
-};
-
-using Pairs = std::set<std::pair<std::string, std::string>>;
-
-void add(Pairs &pairs, const std::string &a, const std::string &b)
-{
-  pairs.insert({a, b});
-  pairs.insert({b, a});
+  const Vec size = outline.high - outline.low;
+  return std::min({size[0], size[1], size[2]});
 }
 
-/** Bodies whose boxes may overlap. */
-Pairs excused_pairs(const Scene &scene, const ParameterFile &file)
+/** A zone fills the place of the cells that its host has lost. */
+bool is_zone_of(const Scene &scene, const int a, const int b)
 {
-  Pairs excused;
   for (const CarvedZone &zone : scene.zones)
-    add(excused, scene.bodies[zone.zone]->name, scene.bodies[zone.host]->name);
-  // Boxes around two sides of a curved tie overlap.
-  for (const std::string &name :
-       split_names(file.value("List of couplings", "")))
-  {
-    const std::string path = "Couplings/" + name;
-    const std::string follower = file.value(path + "/Follower", ""),
-                      leader = file.value(path + "/Leader", "");
-    const auto is_box = [&](const std::string &body)
-    {
-      const auto *const shape = Registry<BodyShape>::find(
-          file.value("Bodies/" + body + "/Geometry", "box"));
-      return shape != nullptr && shape->make()->fills_bounds();
-    };
-    if (!follower.empty() && !(is_box(follower) && is_box(leader)))
-      add(excused, follower, leader);
-  }
-  return excused;
+    if ((zone.zone == a && zone.host == b) ||
+        (zone.zone == b && zone.host == a))
+      return true;
+  return false;
 }
 } // namespace
 
-void check_overlaps(const Scene &scene, const ParameterFile &file)
+std::vector<Outline> outlines_of(const Scene &scene)
 {
-  const Pairs excused = excused_pairs(scene, file);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+  std::vector<Outline> outlines;
+  for (const auto &body : scene.bodies)
+    outlines.push_back(body->outline());
+  return outlines;
+}
+
+void check_overlaps(const Scene &scene, const std::vector<Outline> &outlines)
+{
+  for (std::size_t i = 0; i < outlines.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
     {
-      const Body &one = *scene.bodies[i], &other = *scene.bodies[j];
-      if (excused.count({one.name, other.name}) > 0)
+      if (is_zone_of(scene, i, j))
         continue;
-      const Bounds a(one), b(other);
-      double overlap = far, size = far;
-      for (int d = 0; d < 3; ++d)
-      {
-        overlap = std::min(overlap, std::min(a.high[d], b.high[d]) -
-                                        std::max(a.low[d], b.low[d]));
-        size = std::min({size, a.high[d] - a.low[d], b.high[d] - b.low[d]});
-      }
-      if (overlap > 1e-6 * size + seen_from_outside)
-        throw InputError("Bodies/" + one.name + "/Center",
-                         "bodies \"" + one.name + "\" and \"" + other.name +
-                             "\" overlap by " + std::to_string(overlap * 1e3) +
-                             " mm; move one of them apart");
+      const Outline &one = outlines[i], &other = outlines[j];
+      const Overlap overlap = deepest_overlap(one, other);
+      const double size =
+          std::min(smallest_extent(one), smallest_extent(other));
+      if (overlap.depth <= 1e-6 * size + seen_from_outside ||
+          overlap.depth <= one.chord_error() + other.chord_error())
+        continue;
+      const std::string &name = scene.bodies[i]->name;
+      char text[200];
+      std::snprintf(text, sizeof(text),
+                    " overlap by %.6g mm at (%.6g, %.6g, %.6g) mm",
+                    1e3 * overlap.depth, 1e3 * overlap.place[0],
+                    1e3 * overlap.place[1], 1e3 * overlap.place[2]);
+      throw InputError("Bodies/" + name + "/Center",
+                       "bodies \"" + name + "\" and \"" +
+                           scene.bodies[j]->name + "\"" + text +
+                           "; move one of them apart");
     }
 }
 } // namespace sabot

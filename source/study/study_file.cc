@@ -6,6 +6,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/parameters.h"
 #include "sabot/base/text.h"
+#include "sabot/simulation/quantity_of_interest.h"
 #include "sabot/simulation/run.h"
 #include "sabot/simulation/scene.h"
 
@@ -16,11 +17,15 @@ namespace sabot
 {
 namespace
 {
+std::string first_of(const std::string &label)
+{
+  return trim(label.substr(0, label.find(',')));
+}
+
 /** SI value of the first quantity in a label, NaN when there is none. */
 double number_of(const std::string &label)
 {
-  const std::string first = trim(label.substr(0, label.find(',')));
-  if (const auto value = read_quantity(first))
+  if (const auto value = read_quantity(first_of(label)))
     return *value;
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -80,7 +85,7 @@ StudyParameter read_parameter(const Parameters &prm, const std::string &name,
                          std::to_string(parameter.values.size()) + " values");
   if (parameter.role == StudyParameter::Role::spacing)
     for (const StudyParameter::Value &value : parameter.values)
-      if (!(value.number > 0.))
+      if (!(value.number > 0.) || !is_told_in(first_of(value.label), "m"))
         throw InputError(path + "/Values", "\"" + value.label +
                                                "\" is not a spacing; use "
                                                "lengths or another role");
@@ -134,7 +139,8 @@ std::vector<std::pair<double, double>> read_curve(const std::string &path,
     std::pair<double, double> values(number_of(both[0]),
                                      both.size() == 2 ? number_of(both[1])
                                                       : number_of(""));
-    if (!(values.first > 0.) || !(values.second >= 0.))
+    if (!(values.first > 0.) || !(values.second >= 0.) ||
+        !is_told_in(both[0], "m/s") || !is_told_in(both[1], "m/s"))
       throw InputError(path, "\"" + point +
                                  "\" is not a pair of velocities in m/s, as "
                                  "\"303.5: 199.7\"");
@@ -157,6 +163,23 @@ void check_quantity(const std::string &entry, const std::string &scene,
                                       : "; did you mean \"" +
                                             nearest_name(name, known) + "\"?"));
 }
+
+/** InputError for @p entry where a measured value has another dimension than
+    the quantity of the scene. */
+void check_measured(const std::string &entry, const StudyQuantity &quantity,
+                    const ParameterFile &scene)
+{
+  const std::string type = scene.value(
+                        "Quantities/" + quantity.name + "/Type", "velocity"),
+                    unit = unit_of_quantity(type);
+  if (quantity.measured_text.empty() || unit.empty() ||
+      is_told_in(quantity.measured_text, unit))
+    return;
+  throw InputError(entry, "is " + quantity.measured_text + ", but \"" +
+                              quantity.name + "\" is of the type " + type +
+                              ", in " + unit);
+}
+
 /** InputError where a ballistic fit has no parameter of velocities. */
 void check_ballistic(const std::string &path, const std::string &name,
                      const std::vector<StudyParameter> &parameters)
@@ -167,7 +190,7 @@ void check_ballistic(const std::string &path, const std::string &name,
     if (parameter.name == name)
     {
       for (const StudyParameter::Value &value : parameter.values)
-        if (!(value.number > 0.))
+        if (!(value.number > 0.) || !is_told_in(first_of(value.label), "m/s"))
           throw InputError(path, "the value \"" + value.label + "\" of \"" +
                                      name +
                                      "\" is not a velocity; give labels as "
@@ -290,6 +313,7 @@ void StudyFile::read(const ParameterFile &file)
     if (measured != "nan")
     {
       quantity.measured = number_of(measured);
+      quantity.measured_text = measured;
       if (quantity.measured != quantity.measured)
         throw InputError("Quantities/" + name + "/Measured value",
                          "\"" + measured + "\" is not a number with a unit");
@@ -368,6 +392,7 @@ StudyRun StudyFile::make_run(const std::vector<std::size_t> &choice) const
   {
     const std::string path = "Quantities/" + quantity.name;
     check_quantity(path, run.scene, known, quantity.name);
+    check_measured(path + "/Measured value", quantity, scene_file);
     check_quantity(path + "/Over", run.scene, known, quantity.over);
   }
   return run;

@@ -87,6 +87,33 @@ TEST(Text, is_trimmed_split_and_joined)
   EXPECT_TRUE(lines_of("/no/such/file").empty());
 }
 
+TEST(Text, knows_utf8)
+{
+  for (const std::string text : {"", "plain", "Pr\u00fcfk\u00f6rper", "\u2212",
+                                 "\U0001F600"})
+    EXPECT_FALSE(first_not_utf8(text)) << text;
+  // Latin-1, a lone continuation, cut off, overlong, a surrogate, too large.
+  EXPECT_EQ(*first_not_utf8("Pr\xfc"), 2u);
+  for (const std::string text :
+       {"\x80", "\xe2\x88", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80",
+        "\xf4\x90\x80\x80", "\xff"})
+    EXPECT_EQ(first_not_utf8(text).value_or(9), 0u);
+  EXPECT_EQ(replaced("a--b-", "-", "+-"), "a+-+-b+-");
+}
+
+TEST(Quantity, signs_of_typographers)
+{
+  EXPECT_DOUBLE_EQ(*read_quantity("\u2212300 m/s"), -300.);
+  EXPECT_DOUBLE_EQ(*read_quantity("30 \u00b5s"), 30e-6);
+  EXPECT_DOUBLE_EQ(*read_quantity("30 \u03bcm"), 30e-6);
+  EXPECT_DOUBLE_EQ(*read_quantity("7.8 g/cm\u00b3"), 7800.);
+  EXPECT_TRUE(is_told_in("10 km/s", "m/s"));
+  EXPECT_TRUE(is_told_in("10", "m/s"));
+  EXPECT_FALSE(is_told_in("10 mm", "m/s"));
+  EXPECT_TRUE(is_told_in("10", "1"));
+  EXPECT_FALSE(is_told_in("10 mm", "1"));
+}
+
 TEST(NearestName, finds_the_likely_one)
 {
   EXPECT_EQ(nearest_name("nodal spcing", {"Size", "Nodal spacing", "Center"}),
@@ -132,6 +159,17 @@ protected:
   std::string folder;
   Parameters prm;
 };
+
+TEST_F(Files, entries_are_declared_in_their_subsection)
+{
+  EXPECT_TRUE(prm.is_declared("Title"));
+  EXPECT_FALSE(prm.is_declared("Kind"));
+  const EnteredSubsection entered(prm, "Bodies", "plate");
+  EXPECT_TRUE(prm.is_declared("Kind"));
+  EXPECT_FALSE(prm.is_declared("Title"));
+  EXPECT_EQ(prm.entry_names(),
+            (std::vector<std::string>{"Cell size", "Kind"}));
+}
 
 #define EXPECT_CONTAINS(text, part)                                            \
   EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)

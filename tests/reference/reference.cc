@@ -5,11 +5,14 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/discretization.h"
+#include "sabot/simulation/quantity_of_interest.h"
 #include "sabot/simulation/scene.h"
 #include "verification/problem.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -61,6 +64,59 @@ TEST(Reference, names_all_choices)
       EXPECT_NE(list.find("| " + item.name + " | " + item.description),
                 std::string::npos);
     }
+}
+
+/** Names of the entries below a node of a tree of declarations, by path. */
+std::set<std::string> entries_of(const Parameters &prm,
+                                 const std::string &section)
+{
+  std::ostringstream text;
+  print_tables(prm, text);
+  std::set<std::string> names;
+  std::istringstream lines(text.str());
+  bool is_here = false;
+  for (std::string line; std::getline(lines, line);)
+    if (line.compare(0, 3, "## ") == 0)
+      is_here = line.compare(3, section.size(), section) == 0;
+    else if (is_here && line.compare(0, 2, "| ") == 0)
+      names.insert(line.substr(2, line.find(" |", 2) - 2));
+  names.erase("entry");
+  return names;
+}
+
+TEST(Reference, names_all_entries_of_all_kinds_of_bodies)
+{
+  // Each pair of a discretization and a shape, as a scene declares it.
+  Parameters manual;
+  Scene::declare(manual, nullptr);
+  const std::set<std::string> known = entries_of(manual, "Bodies");
+  for (const char *const entry :
+       {"Motion", "Angular velocity", "Carve from", "Nose length"})
+    EXPECT_EQ(known.count(entry), 1u) << entry;
+  const std::string name = ::testing::TempDir() + "body.prm";
+  for (const auto &kind : Registry<Discretization>::entries())
+    for (const auto &shape : Registry<BodyShape>::entries())
+    {
+      std::ofstream(name) << "set List of bodies = b\nsubsection Bodies\n"
+                             "subsection b\nset Discretization = "
+                          << kind.name << "\nset Geometry = " << shape.name
+                          << "\nend\nend\n";
+      const ParameterFile file(name, {});
+      Parameters prm;
+      Scene::declare(prm, &file);
+      const std::set<std::string> own = entries_of(prm, "Bodies");
+      EXPECT_GT(own.size(), 5u);
+      for (const std::string &entry : own)
+        EXPECT_EQ(known.count(entry), 1u)
+            << kind.name << " " << shape.name << ": " << entry;
+    }
+  std::remove(name.c_str());
+}
+
+TEST(Reference, quantities_tell_their_units)
+{
+  for (const auto &type : Registry<QuantityOfInterest>::entries())
+    EXPECT_FALSE(unit_of_quantity(type.name).empty()) << type.name;
 }
 
 TEST(Reference, names_all_fields_of_runs_and_no_others)

@@ -30,6 +30,9 @@ namespace sabot
  *       end
  *     end
  *
+ * Text is UTF-8, with or without a byte order mark, with the line ends of any
+ * system. A file that one section includes twice is read once.
+ *
  * Blanks around names and values do not count, upper and lower case do. A
  * later file wins over an earlier one, so that an including file changes what
  * it includes; within one file an entry stands once. Reading knows nothing of
@@ -84,6 +87,7 @@ private:
   std::vector<Entry> entries;                // in order, each path once
   std::map<std::string, std::size_t> number; // path -> entries
   std::vector<std::pair<std::string, std::string>> sections; // path, origin
+  std::set<std::pair<std::string, std::string>> included; // section, file
   std::set<std::string> renamed; // old names that were met
   std::vector<std::string> said; // about them
 };

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -136,6 +137,7 @@ public:
 private:
   std::unique_ptr<dealii::ParameterHandler> prm;
   std::vector<std::string> section;                // present
+  std::set<std::vector<std::string>> declared;     // sections and name
   std::vector<std::vector<std::string>> all_knobs; // sections and name
 };
 
@@ -181,6 +183,9 @@ std::array<double, 3> get_vector(const Parameters &prm,
 /** SI value of a text that quantity() accepts for some dimension, e.g. "1.27
     mm"; nothing where there is no such dimension. */
 std::optional<double> read_quantity(const std::string &text);
+/** Whether @p text is a quantity that can be told in @p unit ("m/s"): a number
+    alone, or with a unit of the same dimension. */
+bool is_told_in(const std::string &text, const std::string &unit);
 /** Names of a text that name_list() accepts, trimmed, empty ones dropped. */
 std::vector<std::string> split_names(const std::string &text);
 } // namespace sabot

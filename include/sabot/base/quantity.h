@@ -5,6 +5,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ private:
 /** SI value of a number with an optional unit of any dimension;
     std::invalid_argument for any other text. */
 double to_si(const std::string &text);
+/** Dimension of the unit @p name ("MPa"); nothing where it is no unit. */
+std::optional<Dimension> dimension_of_unit(const std::string &name);
 /** Parts between commas, trimmed; what follows a last comma counts, though
     empty, so that "1, 2," has three and is refused where two are asked. */
 std::vector<std::string> split_at_commas(const std::string &text);

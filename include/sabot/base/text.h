@@ -1,6 +1,7 @@
 #ifndef sabot_base_text_h
 #define sabot_base_text_h
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,14 @@ std::string join(const std::vector<std::string> &texts,
 /** @p value as printf's @p pattern ("%.3g mm") has it: one conversion of a
     double, at most 63 characters in all. */
 std::string formatted(const char *pattern, const double value);
+
+/** Where the first byte stands that is not part of UTF-8 text; nothing where
+    all are. Refuses overlong forms, surrogates and what is beyond U+10FFFF. */
+std::optional<std::size_t> first_not_utf8(const std::string &text);
+
+/** @p text with every @p part replaced by @p other. */
+std::string replaced(std::string text, const std::string &part,
+                     const std::string &other);
 
 /** The lines of a file that are not empty; none of a file that cannot be
     read. */

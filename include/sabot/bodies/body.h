@@ -6,6 +6,8 @@
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body_facts.h"
+#include "sabot/bodies/velocity_constraints.h"
+#include "sabot/geometry/outline.h"
 
 #include <mpi.h>
 
@@ -262,9 +264,15 @@ public:
   /** What is known of it before the run; before distribute() where it is asked
       for its mesh. */
   virtual BodyFacts facts() const = 0;
+  /** Its true shape at the start, before distribute(); without faces where it
+      has none to show. */
+  virtual Outline outline() const { return Outline(); }
   /** Whether something outside of the scene acts on it, e.g. a clamp, so that
       momentum is not kept. */
   virtual bool is_held() const = 0;
+  /** Which velocities of owned nodes are prescribed, after distribute(); null:
+      none ever is. */
+  virtual const VelocityConstraints *prescribed() const { return nullptr; }
   /** Where the model of the body is cut, the same on every rank. */
   virtual std::vector<SymmetryPlane> planes_of_symmetry() const { return {}; }
 

@@ -23,6 +23,11 @@ struct BodyFacts
   /** Faces of symmetry and driven ones do not count. */
   bool is_clamped = false;          // somewhere
   std::array<double, 3> velocity{}; // at the start [m/s]
+  /** Of the part that is driven, where one is [m/s]. */
+  std::optional<std::array<double, 3>> driven_velocity;
+  /** Whether it moves otherwise than with its velocity at the start before
+      anything meets it: driven, loaded, spinning, or held while it flies. */
+  bool moves_by_itself = false;
   /** Distance of nodes that was asked for along the axes; the finest where it
       varies [m]. */
   std::array<double, 3> spacing{};

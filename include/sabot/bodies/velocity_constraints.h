@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace sabot
@@ -31,6 +32,10 @@ public:
   /** Once, after the last prescribe(). Sorts by node, and finds out whether
       any velocity differs from zero: without, there is no work to be done. */
   void finish();
+
+  /** What is held of node @p i after finish(): 1 where a component is free,
+      else 0, and the value where it is held [m/s]. Found by bisection. */
+  std::pair<Vec, Vec> held_at(const std::size_t i) const;
 
   /** Set the held components of the velocity; the others stay. v := free * v
       + value by component, the same bits wherever the node is owned. */

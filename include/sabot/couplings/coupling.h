@@ -58,6 +58,9 @@ public:
   }
   /** Add this rank's share of what it took from the bodies [J]. */
   virtual void add_energies(EnergyLedger &) const {}
+  /** What initialize() found that can hardly be meant; the same on all
+      ranks. */
+  virtual std::vector<std::string> warnings() const { return {}; }
   /** For results, e.g. tied nodes, penetration. Collective, same on all
       ranks. */
   virtual Measures measure() const { return {}; }

@@ -13,6 +13,8 @@
 
 namespace sabot
 {
+struct TiedNodes;
+
 /** What couplings are built from, and what those built before have claimed.
     The bodies are not distributed yet: only what they are may be asked. */
 struct CouplingContext
@@ -27,6 +29,8 @@ struct CouplingContext
   /** Pairs of bodies of particles that a contact holds apart, lower number
       first. */
   std::set<std::pair<int, int>> touching;
+  /** What the ties of the scene tell each other; the first makes it. */
+  std::shared_ptr<TiedNodes> tied_nodes;
 };
 
 /**

@@ -4,10 +4,21 @@
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/node_halo.h"
 
+#include <map>
+#include <memory>
+#include <string>
 #include <utility>
 
 namespace sabot
 {
+/** The nodes that the ties of a scene hold already, by body and global number,
+    and by which tie; the same on every rank. */
+struct TiedNodes
+{
+  using Node = std::pair<int, GlobalIndex>;
+  std::map<Node, std::string> followers, leaders;
+};
+
 /**
  * Follower nodes move as weighted sums of leader nodes: v_f = sum w_a v_a,
  * f_a += w_a f_f, m_a += w_a m_f (doc/theory-coupling.md). Every node of the
@@ -23,13 +34,19 @@ class Tie : public Coupling
 public:
   /** @p bodies: all of the scene; @p follower, @p leader: numbers among them;
       the leader's surface has faces. @p tolerance: distance from a face, in
-      follower spacings, up to which a node counts as lying on it. */
+      follower spacings, up to which a node counts as lying on it. @p others:
+      what other ties hold, of which each takes note; may be null. */
   Tie(const std::string &name, const std::vector<Body *> &bodies,
       const int follower, const int leader, const double tolerance,
-      MPI_Comm communicator);
+      MPI_Comm communicator, const std::shared_ptr<TiedNodes> &others = {});
 
   std::string kind() const override { return "tie"; }
+  /** Finds followers and weights. A node that another tie holds already is
+      left to it; InputError where no node is tied, where one follows here and
+      leads there, and where the velocity of a follower is prescribed and that
+      of its leaders is not the same. */
   void initialize() override;
+  std::vector<std::string> warnings() const override;
   void impose_kinematics() override;
   void add_forces(const double dt) override;
   void forward_changes() override;
@@ -63,6 +80,15 @@ private:
       configuration; by follower, the same on every rank. Collective. */
   std::vector<Constraint> find_constraints() const;
   static void use_face(Constraint &constraint);
+  /** Takes out the nodes that another tie moves. */
+  void leave_to_others(std::vector<Constraint> &constraints);
+  /** InputError for nodes that follow in one tie and lead in another one. */
+  void refuse_chains(const std::vector<Constraint> &constraints) const;
+  /** InputError for followers with velocities prescribed that their leaders do
+      not have. Collective. */
+  void refuse_held(const std::vector<Constraint> &constraints) const;
+  /** "(1, 2, 3) mm" of a node at the start, for messages. Collective. */
+  std::string place_of(const int body, const GlobalIndex node) const;
   /** Puts all followers on the faces where leaders would lose too much mass.
       @return factor of the stable step. Collective. */
   double keep_mass(std::vector<Constraint> &constraints) const;
@@ -80,7 +106,9 @@ private:
   const int follower, leader;
   const double tolerance;
   MPI_Comm communicator;
+  const std::shared_ptr<TiedNodes> others;
   std::size_t n_constraints = 0;
+  std::string left_out;     // a warning, where nodes are
   double step_factor = 1.;  // below 1 where weights are negative
   NodeHalo leaders;         // of the followers owned here
   std::vector<Term> motion; // owned followers from leaders

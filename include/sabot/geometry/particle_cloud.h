@@ -2,6 +2,7 @@
 #define sabot_geometry_particle_cloud_h
 
 #include "sabot/geometry/hex_mesh.h"
+#include "sabot/geometry/outline.h"
 #include "sabot/kernels/vec.h"
 
 #include <array>
@@ -31,6 +32,10 @@ struct ParticleCloud
     Vec area;
   };
   std::vector<FaceShare> face_shares;
+  /** The closed skin of the body: quadrilaterals of particles, outwards, and
+      the boundary id of each. */
+  std::vector<std::array<std::size_t, 4>> skin;
+  std::vector<unsigned int> skin_id;
   /** Axis across which the face of each boundary id is a plane; nothing where
       it is none. */
   std::vector<std::optional<int>> face_axis{0, 0, 1, 1, 2, 2};
@@ -74,6 +79,10 @@ ParticleCloud make_mesh_cloud(const HexMesh &mesh);
  */
 AlignedVector<Vec> outward_normals(const ParticleCloud &cloud,
                                    const std::uint32_t without);
+
+/** The shape of the cloud; @p cut: boundary ids on planes of symmetry, a bit
+    each. */
+Outline outline_of(const ParticleCloud &cloud, const std::uint32_t cut);
 
 /** Number of intervals of about @p spacing in @p length, at least one. */
 unsigned int n_intervals(const double length, const double spacing);

@@ -63,6 +63,10 @@ private:
   /** Makes the planes known that the body's entries and its loads list among
       faces. */
   void name_planes_of(const std::string &path, NamedMesh &made) const;
+  /** What @p make returns; too many items become an InputError by the entry of
+      the present subsection that says how large they are. */
+  template <typename Make>
+  auto counted(const std::string &path, const Make &make) const;
   /** Its subsection with material, shape and mesh, as BodyRequest. */
   std::unique_ptr<Body> make_body(const std::string &name, const int id);
   /** By the bodies as they were built: numbers, bounds and spacing [m]. */
@@ -80,16 +84,6 @@ private:
   std::map<std::string, NamedMesh> cells;  // made already, by body
   std::map<std::string, double> cell_size; // by zone that follows a mesh [m]
 };
-
-/**
- * Refuse bodies that overlap, but for zones and their hosts, and for curved
- * surfaces that are tied.
- * By bounding boxes of the nodes: an overlap along all three axes of more than
- * 1 nm and 1e-6 of the smallest extent of the two is one. Throws InputError for
- * the entry "Center" of the later body. Not collective; before bodies are
- * distributed.
- */
-void check_overlaps(const Scene &scene, const ParameterFile &file);
 } // namespace sabot
 
 #endif

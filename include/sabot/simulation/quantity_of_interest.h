@@ -42,6 +42,17 @@ public:
 
   std::string name; // in the history and in result.json
 };
+
+/** Tells the unit of a type of quantity before a scene is built, so that a
+    measured value can be held against it; one static object beside the
+    registration of a type that has one unit. */
+struct UnitOfQuantity
+{
+  UnitOfQuantity(const std::string &type, const std::string &unit);
+};
+
+/** The unit of the type of quantity; empty where it has told none. */
+std::string unit_of_quantity(const std::string &type);
 } // namespace sabot
 
 #endif

@@ -12,7 +12,9 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sabot
@@ -107,6 +109,7 @@ public:
   std::vector<std::unique_ptr<SceneOutput>> outputs;
   std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
+  /** What can hardly be meant; distribute() adds to it. */
   std::vector<std::string> warnings;
   std::vector<std::string> notes; // old names in the file; what meshes are like
   /** True where nothing holds or loads a body from outside, so that linear
@@ -124,8 +127,13 @@ private:
    * In the order that their builders ask for, equal ones in the list's; those
    * that act last, as ties do, at the end. Warns of zones without a tie to
    * their host.
+   * @return follower and leader of ties
    */
-  void build_couplings();
+  std::set<std::pair<int, int>> build_couplings();
+  /** By scene_checks.h. */
+  void warn_of_doubts(const ParameterFile &file,
+                      const std::vector<Outline> &outlines,
+                      const std::set<std::pair<int, int>> &tied);
   /** Of bodies that can fail and are in no self-contact. */
   void warn_of_lone_debris();
   void build_outputs();

@@ -56,6 +56,7 @@ struct StudyQuantity
   /** What an experiment found: impact and residual velocity [m/s]. */
   std::vector<std::pair<double, double>> measured_curve;
   double measured = std::numeric_limits<double>::quiet_NaN(); // SI; NaN: none
+  std::string measured_text; // as the file has it
 };
 
 /** One run of a study: what is set in which scene. Two may have one key, when

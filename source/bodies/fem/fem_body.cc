@@ -215,6 +215,17 @@ BodyFacts FemBody::facts() const
   facts.material = material.get();
   facts.is_clamped = !options.clamped_boundary_ids.empty();
   facts.velocity = options.initial_velocity;
+  if (!options.driven_boundary_ids.empty())
+  {
+    facts.driven_velocity = options.initial_velocity;
+    for (int d = 0; d < 3; ++d)
+      if (options.driven_components[d])
+        (*facts.driven_velocity)[d] = options.driven_velocity[d];
+  }
+  const bool flies =
+      options.initial_velocity != std::array<double, 3>{{0., 0., 0.}};
+  facts.moves_by_itself =
+      facts.driven_velocity.has_value() || (flies && facts.is_clamped);
   facts.spacing.fill(options.cell_size);
   return facts;
 }

@@ -54,6 +54,7 @@ FemBoundary::FemBoundary(const std::string &body_name, const HexMesh &mesh,
         break;
       }
   }
+  refuse_contradictions(body_name, mesh, options, symmetry_axes);
 }
 
 void FemBoundary::set_up(

@@ -265,6 +265,8 @@ BodyFacts RigidBody::facts() const
   facts.material = material.get();
   facts.deforms = false;
   facts.velocity = options.initial_velocity;
+  facts.moves_by_itself =
+      options.angular_velocity != std::array<double, 3>{{0., 0., 0.}};
   facts.spacing.fill(options.cell_size);
   return facts;
 }

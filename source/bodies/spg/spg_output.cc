@@ -76,6 +76,9 @@ BodyFacts SpgBody::facts() const
   facts.is_particles = true;
   facts.is_clamped = options.clamped_faces != 0;
   facts.velocity = options.initial_velocity;
+  const bool flies =
+      options.initial_velocity != std::array<double, 3>{{0., 0., 0.}};
+  facts.moves_by_itself = flies && facts.is_clamped;
   facts.spacing = kernel.axis_spacing();
   facts.may_fail = options.can_fail();
   facts.failure_strain =

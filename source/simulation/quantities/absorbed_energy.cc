@@ -32,6 +32,8 @@ private:
   double start; // square of the velocity at the start
 };
 
+const UnitOfQuantity described("absorbed energy", "J");
+
 const Registry<QuantityOfInterest>::Add registered(
     {"absorbed energy",
      "kinetic energy of the body's center of mass that it has lost since the "

@@ -62,6 +62,8 @@ void declare(Parameters &prm)
                     "A point of the line about which the hole is measured.");
 }
 
+const UnitOfQuantity described("hole diameter", "m");
+
 const Registry<QuantityOfInterest>::Add
     registered({"hole diameter",
                 "of the widest cylinder about a line along the direction that "

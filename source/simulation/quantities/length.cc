@@ -22,6 +22,8 @@ private:
   const DirectedQuantity along;
 };
 
+const UnitOfQuantity described("length", "m");
+
 const Registry<QuantityOfInterest>::Add
     registered({"length", "extent of the body along the direction.",
                 declare_directed_quantity, [](const QuantityRequest &request) {

@@ -85,6 +85,8 @@ void declare(Parameters &prm)
                     "foot itself.");
 }
 
+const UnitOfQuantity described("outline radius", "m");
+
 const Registry<QuantityOfInterest>::Add
     registered({"outline radius",
                 "of the body about the coordinate axis along the direction, at "

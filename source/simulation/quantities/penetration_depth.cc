@@ -35,6 +35,8 @@ void declare(Parameters &prm)
                     "depth counts.");
 }
 
+const UnitOfQuantity described("penetration depth", "m");
+
 const Registry<QuantityOfInterest>::Add
     registered({"penetration depth",
                 "how far the body reaches beyond the origin along the "

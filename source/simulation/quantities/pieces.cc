@@ -75,6 +75,8 @@ private:
   const DirectedQuantity direction;
 };
 
+const UnitOfQuantity units[] = {UnitOfQuantity("plug mass", "kg"), UnitOfQuantity("plug velocity", "m/s"), UnitOfQuantity("largest piece velocity", "m/s")};
+
 const Registry<QuantityOfInterest>::Add
     mass({"plug mass",
           "of the heaviest piece of the body, its main piece aside, that has "

@@ -28,6 +28,8 @@ private:
   std::array<double, 3> whole{{1., 1., 1.}};
 };
 
+const UnitOfQuantity described("radius", "m");
+
 const Registry<QuantityOfInterest>::Add
     registered({"radius",
                 "half extent of the body across the direction, of the whole "

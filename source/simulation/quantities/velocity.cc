@@ -24,6 +24,8 @@ private:
   const DirectedQuantity along;
 };
 
+const UnitOfQuantity described("velocity", "m/s");
+
 const Registry<QuantityOfInterest>::Add
     registered({"velocity", "of the body's center of mass along the direction.",
                 declare_directed_quantity, [](const QuantityRequest &request) {

@@ -86,8 +86,17 @@ public:
       every number of ranks. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
+  /** Of the mesh, which distribute() releases. */
+  Outline outline() const override
+  {
+    return outline_of(mesh, options.symmetry_boundary_ids);
+  }
   /** By any clamped, driven or symmetry face, the rest of the scene aside. */
   bool is_held() const override;
+  const VelocityConstraints *prescribed() const override
+  {
+    return &constraints;
+  }
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
     return boundary.planes();

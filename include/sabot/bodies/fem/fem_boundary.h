@@ -23,14 +23,14 @@ class FemBoundary
 {
 public:
   /** Finds the symmetry planes. Throws InputError, by the entry "Symmetry
-      faces", unless such faces lie in one plane across an axis. */
+      faces", unless such faces lie in one plane across an axis; see also
+      refuse_contradictions(). */
   FemBoundary(const std::string &body_name, const HexMesh &mesh,
               const FemOptions &options);
 
   /**
    * Takes the faces whose nodes are all here, and prescribes velocities. Where
-   * clamped, driven and symmetry faces share nodes, symmetry gives way to a
-   * driven face, and both to a clamped one.
+   * clamped, driven and symmetry faces share nodes, they agree.
    * @param local  number on this rank of the mesh's nodes that are here
    *
    * Ids of the faces are their numbers in the mesh; the typical spacing [m] is
@@ -79,6 +79,17 @@ private:
   std::map<std::size_t, int> n_symmetry_planes;
   double typical_spacing = 0.; // [m]
 };
+
+/**
+ * InputError, by the entry "Driven faces" of the body, where a node would be
+ * driven and held along one axis: on a clamped face or across a plane of
+ * symmetry, also along the edge of two faces. A drive of 0 m/s holds, too, and
+ * agrees with both.
+ * @param symmetry_axes  of the boundary ids of planes of symmetry
+ */
+void refuse_contradictions(const std::string &body_name, const HexMesh &mesh,
+                           const FemOptions &options,
+                           const std::map<unsigned int, int> &symmetry_axes);
 } // namespace sabot
 
 #endif

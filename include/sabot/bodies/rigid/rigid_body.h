@@ -99,6 +99,8 @@ public:
       frame. Collective. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
+  /** Of the mesh, which distribute() releases. */
+  Outline outline() const override { return outline_of(mesh, {}); }
   bool is_held() const override { return options.is_prescribed; }
   OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;

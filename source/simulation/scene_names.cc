@@ -1,0 +1,34 @@
+// Names of a scene that would meet in its results.
+#include "sabot/output/file_names.h"
+#include "sabot/simulation/scene_checks.h"
+
+#include <map>
+
+namespace sabot
+{
+void check_names(const Parameters &prm)
+{
+  for (const std::string list : {"bodies", "loads", "couplings", "outputs", "quantities"})
+  {
+    std::set<std::string> known;
+    for (const std::string &name : split_names(prm.get("List of " + list)))
+      if (!known.insert(name).second)
+        throw InputError("List of " + list,
+                         "names \"" + name + "\" twice; once is enough");
+  }
+  std::map<std::string, std::string> files; // name of the body
+  for (const std::string &name : split_names(prm.get("List of bodies")))
+  {
+    if (name == "ledger" || name == "quantities")
+      throw InputError("List of bodies",
+                       "a body cannot be called \"" + name +
+                           "\": history.h5 has a table of this name");
+    const auto [at, is_new] = files.emplace(file_name_of(name), name);
+    if (!is_new)
+      throw InputError("List of bodies",
+                       "bodies \"" + at->second + "\" and \"" + name +
+                           "\" would write the same files, fields/" +
+                           at->first + "_000000.vtu; rename one of them");
+  }
+}
+} // namespace sabot
