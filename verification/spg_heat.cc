@@ -54,7 +54,7 @@ Slab slab(const ParticleCloud &cloud, const int steps)
     body.update_topology(i, end * i / steps);
   Slab result;
   double mass = 0.;
-  for (const OutputField &field : body.output_mesh().point_fields)
+  for (const OutputField &field : body.output_mesh().cell_fields)
     if (field.name == "temperature")
       for (std::size_t i = 0; i < n.n_owned; ++i)
       {

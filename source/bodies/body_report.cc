@@ -28,7 +28,7 @@ const DescribeField described[] = {
     DescribeField({"rank", "1", 1, "all bodies", "MPI rank that owns it."})};
 } // namespace
 
-void add_material_fields(std::vector<OutputField> &fields,
+void add_material_fields(FieldList &fields,
                          const std::vector<std::size_t> &items,
                          const std::size_t n, const double *const stress,
                          const double *const state,

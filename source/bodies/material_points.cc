@@ -154,7 +154,7 @@ void MaterialPoints::add_to(FlowStressProbe &probe, const std::size_t point,
             { return state_data[row * row_length + point]; });
 }
 
-void MaterialPoints::add_fields(std::vector<OutputField> &fields,
+void MaterialPoints::add_fields(FieldList &fields,
                                 const std::vector<std::size_t> &points) const
 {
   add_material_fields(fields, points, row_length, stress.data(),

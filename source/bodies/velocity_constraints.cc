@@ -6,12 +6,9 @@
 namespace sabot
 {
 void VelocityConstraints::prescribe(const std::size_t i, const int axis,
-                                    const double velocity)
+                                    const double velocity, const Holder by)
 {
-  const auto entry =
-      collected.emplace(i, std::array<std::array<double, 2>, 3>{
-                               {{{1., 0.}}, {{1., 0.}}, {{1., 0.}}}});
-  entry.first->second[axis] = {{0., velocity}};
+  collected[i][axis] = {true, velocity, by};
 }
 
 void VelocityConstraints::finish()
@@ -19,10 +16,13 @@ void VelocityConstraints::finish()
   held.clear();
   for (const auto &[node, axis] : collected)
   {
-    held.push_back({node, vec(axis[0][0], axis[1][0], axis[2][0]),
-                    vec(axis[0][1], axis[1][1], axis[2][1])});
+    held.push_back({node,
+                    vec(!axis[0].is_held, !axis[1].is_held, !axis[2].is_held),
+                    vec(axis[0].velocity, axis[1].velocity, axis[2].velocity),
+                    {{axis[0].by, axis[1].by, axis[2].by}}});
     has_work = has_work || norm_square(held.back().value) > 0.;
   }
+  impulse.assign(held.size(), Vec{});
   collected.clear();
 }
 
@@ -36,10 +36,53 @@ std::pair<Vec, Vec> VelocityConstraints::held_at(const std::size_t i) const
   return {at->free, at->value};
 }
 
-void VelocityConstraints::impose(NodalState &nodes) const
+void VelocityConstraints::impose(NodalState &nodes)
 {
-  for (const Held &h : held)
-    nodes.velocity[h.node] = h.free * nodes.velocity[h.node] + h.value;
+  const double counts = has_started ? 1. : 0.;
+  has_started = true;
+  for (std::size_t k = 0; k < held.size(); ++k)
+  {
+    const Held &h = held[k];
+    Vec &velocity = nodes.velocity[h.node];
+    const Vec before = velocity;
+    velocity = h.free * velocity + h.value;
+    impulse[k] += (counts * nodes.inertia[h.node]) * (velocity - before);
+  }
+}
+
+std::vector<Resultant>
+VelocityConstraints::reactions(const NodalState &nodes, const int body,
+                               const std::vector<Holder> &kinds,
+                               MPI_Comm communicator) const
+{
+  std::vector<ExactVectorSum> force(kinds.size()), total(kinds.size());
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    for (std::size_t k = 0; k < held.size(); ++k)
+    {
+      const Held &h = held[k];
+      Vec its = {};
+      for (int d = 0; d < 3; ++d)
+        its[d] = h.free[d] == 0. && h.by[d] == kinds[kind];
+      total[kind].add(its * impulse[k]);
+      if (!nodes.is_follower(h.node))
+        force[kind].add(-1. * (its * nodes.force[h.node]));
+    }
+  std::vector<ExactVectorSum *> sums;
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    sums.insert(sums.end(), {&force[kind], &total[kind]});
+  ExactVectorSum::reduce(sums, communicator);
+  const char *const names[] = {"symmetry faces", "driven faces",
+                               "clamped faces"};
+  std::vector<Resultant> all;
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    all.push_back({names[static_cast<int>(kinds[kind])], body,
+                   force[kind].value(), total[kind].value(), true});
+  return all;
+}
+
+void VelocityConstraints::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_array("reaction impulse", impulse);
 }
 
 void VelocityConstraints::accumulate_work(const NodalState &nodes,

@@ -1,9 +1,9 @@
 // Reads the fields that a run left.
 #include "run_frames.h"
 
-#include <vtkIdList.h>
+#include <vtkDataArray.h>
 #include <vtkNew.h>
-#include <vtkStaticPointLocator.h>
+#include <vtkPointData.h>
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -99,35 +99,16 @@ bool is_of_particles(vtkUnstructuredGrid *const grid)
   return grid->GetNumberOfCells() > 0 && grid->GetCellType(0) == VTK_VERTEX;
 }
 
-double particle_spacing(vtkUnstructuredGrid *const grid)
+double particle_diameter(vtkUnstructuredGrid *const grid)
 {
-  const vtkIdType n = grid->GetNumberOfPoints();
-  if (n < 2)
-    return grid->GetLength() > 0. ? grid->GetLength() : 1.;
-  vtkNew<vtkStaticPointLocator> locator;
-  locator->SetDataSet(grid);
-  locator->BuildLocator();
-  std::vector<double> distances;
-  vtkNew<vtkIdList> nearest;
-  const vtkIdType stride = std::max<vtkIdType>(1, n / 1000);
-  for (vtkIdType i = 0; i < n; i += stride)
-  {
-    double x[3], y[3];
-    grid->GetPoint(i, x);
-    locator->FindClosestNPoints(2, x, nearest);
-    double square = 0.;
-    for (vtkIdType k = 0; k < nearest->GetNumberOfIds(); ++k)
-    {
-      grid->GetPoint(nearest->GetId(k), y);
-      double sum = 0.;
-      for (int d = 0; d < 3; ++d)
-        sum += (x[d] - y[d]) * (x[d] - y[d]);
-      square = std::max(square, sum);
-    }
-    distances.push_back(std::sqrt(square));
-  }
-  std::nth_element(distances.begin(), distances.begin() + distances.size() / 2,
-                   distances.end());
-  return distances[distances.size() / 2];
+  vtkDataArray *const diameters = grid->GetPointData()->GetArray("diameter");
+  if (diameters == nullptr)
+    throw std::runtime_error("the particles have no field \"diameter\": these "
+                             "are results of an older program");
+  double sum = 0.;
+  const vtkIdType n = diameters->GetNumberOfTuples();
+  for (vtkIdType i = 0; i < n; ++i)
+    sum += diameters->GetComponent(i, 0);
+  return sum / n;
 }
 } // namespace sabot_charts

@@ -35,8 +35,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_body(const FrameBody &body);
 /** Whether the cells are single points: a body of particles. */
 bool is_of_particles(vtkUnstructuredGrid *grid);
 
-/** Median distance of a particle to its nearest neighbor. [m] */
-double particle_spacing(vtkUnstructuredGrid *grid);
+/** Mean diameter of the particles. [m] @throw std::runtime_error */
+double particle_diameter(vtkUnstructuredGrid *grid);
 } // namespace sabot_charts
 
 #endif

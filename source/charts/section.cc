@@ -150,7 +150,7 @@ private:
     for (vtkIdType i = 0; i < body.grid->GetNumberOfPoints(); ++i)
     {
       const double *const x = body.grid->GetPoint(i);
-      if (x[view.normal] < view.position - 0.51 * body.spacing)
+      if (x[view.normal] < view.position - 0.51 * body.diameter)
         continue;
       points->InsertNextPoint(x);
       if (values != nullptr)
@@ -161,7 +161,7 @@ private:
     if (values != nullptr)
       cloud->GetPointData()->AddArray(shown);
     vtkNew<vtkSphereSource> sphere;
-    sphere->SetRadius(0.5 * body.spacing);
+    sphere->SetRadius(0.5 * body.diameter);
     sphere->SetThetaResolution(12);
     sphere->SetPhiResolution(9);
     vtkNew<vtkGlyph3DMapper> mapper;

@@ -86,7 +86,7 @@ std::vector<SectionBody> read_bodies(const Frame &frame,
     b.grid = read_body(body);
     b.is_of_particles = is_of_particles(b.grid);
     b.has_field = add_shown(b.grid, field);
-    b.spacing = 0.;
+    b.diameter = 0.;
     bodies.push_back(b);
   }
   return bodies;
@@ -308,7 +308,7 @@ SectionView make_view(SectionRequest &request)
     for (SectionBody &body : panel.bodies)
       for (const SectionBody &begin : first)
         if (body.is_of_particles && body.name == begin.name)
-          body.spacing = particle_spacing(begin.grid);
+          body.diameter = particle_diameter(begin.grid);
     view.panels.push_back(panel);
   }
   bool has_field = false;

@@ -34,7 +34,7 @@ struct SectionBody
   std::string name;
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   bool is_of_particles, has_field;
-  double spacing; // of particles, at the start [m]
+  double diameter; // of particles, at the start [m]
 };
 
 struct SectionPanel

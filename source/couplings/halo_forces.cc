@@ -2,11 +2,13 @@
 #include "sabot/couplings/halo_forces.h"
 
 #include <algorithm>
+#include <set>
 
 namespace sabot
 {
 void HaloForces::resize(const std::size_t n)
 {
+  settle_impulses();
   normal.assign(n, Vec{});
   friction.assign(n, Vec{});
   total.assign(n, Vec{});
@@ -25,15 +27,71 @@ void HaloForces::add_to_bodies(const NodeHalo &halo)
   halo.add_to_bodies(total);
 }
 
+void HaloForces::settle_impulses()
+{
+  for (std::size_t s = 0; s < impulse.size(); ++s)
+  {
+    const std::size_t b = body_of[s];
+    if (settled.size() <= b)
+      settled.resize(b + 1);
+    settled[b].add(impulse[s]);
+  }
+  impulse.clear();
+  body_of.clear();
+}
+
 void HaloForces::accumulate_work(const NodeHalo &halo, const double half_dt)
 {
+  if (impulse.size() != halo.n_owned())
+  {
+    impulse.assign(halo.n_owned(), Vec{});
+    for (std::size_t s = 0; s < halo.n_owned(); ++s)
+      body_of.push_back(halo.key(s).body);
+  }
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
     if (norm_square(normal[s]) > 0.)
     {
       const Vec v = half_dt * halo.body_velocity(s);
       contact_work.add(dot(normal[s], v));
       friction_work.add(dot(friction[s], v));
+      impulse[s] += half_dt * (normal[s] + friction[s]);
     }
+}
+
+std::vector<Resultant>
+HaloForces::resultants(const std::string &source,
+                       const std::vector<std::pair<int, int>> &pairs,
+                       const NodeHalo &halo, MPI_Comm communicator) const
+{
+  std::set<int> bodies;
+  for (const auto &[a, b] : pairs)
+    if (a != b)
+      bodies.insert({a, b});
+  std::vector<ExactVectorSum> force(bodies.size()), total(bodies.size());
+  std::vector<ExactVectorSum *> sums;
+  std::size_t k = 0;
+  for (const int b : bodies)
+  {
+    for (std::size_t s = 0; s < halo.n_owned(); ++s)
+      if (halo.key(s).body == b)
+        force[k].add(normal[s] + friction[s]);
+    if (std::size_t(b) < settled.size())
+      total[k] = settled[b];
+    for (std::size_t s = 0; s < impulse.size(); ++s)
+      if (body_of[s] == b)
+        total[k].add(impulse[s]);
+    sums.insert(sums.end(), {&force[k], &total[k]});
+    ++k;
+  }
+  ExactVectorSum::reduce(sums, communicator);
+  std::vector<Resultant> all;
+  k = 0;
+  for (const int b : bodies)
+  {
+    all.push_back({source, b, force[k].value(), total[k].value(), false});
+    ++k;
+  }
+  return all;
 }
 
 void HaloForces::add_energies(EnergyLedger &ledger) const
@@ -57,5 +115,8 @@ void HaloForces::visit_state(StateVisitor &visitor)
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("normal force", normal);
   visitor.visit_array("friction force", friction);
+  visitor.visit_resized("impulse", impulse);
+  visitor.visit_resized("body of impulse", body_of);
+  visitor.visit_resized("settled impulse", settled);
 }
 } // namespace sabot

@@ -121,6 +121,9 @@ void Tie::prepare_forces(const std::vector<Constraint> &constraints)
   force_exchange = GhostExchange(communicator, owned_followers.size(),
                                  remote_owner, remote, slot_of_owned);
   follower_force.resize(owned_followers.size() + remote.size());
+  for (AlignedVector<Vec> *const of_owned :
+       {&impulse, &start_velocity, &mid_velocity})
+    of_owned->assign(owned_followers.size(), Vec{});
 }
 
 void Tie::impose_kinematics()
@@ -133,7 +136,7 @@ void Tie::impose_kinematics()
     followers.velocity[term.local] += term.weight * leaders.velocity[term.slot];
 }
 
-void Tie::add_forces(const double)
+void Tie::add_forces(const double dt)
 {
   const NodalState &followers = bodies[follower]->nodes();
   NodalState &leads = bodies[leader]->nodes();
@@ -142,6 +145,11 @@ void Tie::add_forces(const double)
   force_exchange.update(follower_force.data());
   for (const Term &term : forces)
     leads.force[term.local] += term.weight * follower_force[term.slot];
+  for (std::size_t s = 0; s < owned_followers.size(); ++s)
+    mid_velocity[s] = followers.velocity[owned_followers[s]];
+  last_step = is_step(dt) ? dt : 0.;
+  if (last_step == 0.)
+    start_velocity = mid_velocity;
 }
 
 void Tie::forward_changes()
@@ -163,8 +171,11 @@ void Tie::accumulate_work(const double half_dt)
   const NodalState &followers = bodies[follower]->nodes(),
                    &leads = bodies[leader]->nodes();
   for (std::size_t s = 0; s < owned_followers.size(); ++s)
+  {
     work.add(-half_dt *
              dot(follower_force[s], followers.velocity[owned_followers[s]]));
+    impulse[s] += half_dt * follower_force[s];
+  }
   for (const Term &term : forces)
     work.add(half_dt * term.weight *
              dot(follower_force[term.slot], leads.velocity[term.local]));
@@ -180,6 +191,32 @@ void Tie::visit_state(StateVisitor &visitor)
   visitor.visit_value("work", work);
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("follower force", follower_force);
+  visitor.visit_array("impulse", impulse);
+}
+
+std::vector<Resultant> Tie::resultants() const
+{
+  const NodalState &followers = bodies[follower]->nodes();
+  ExactVectorSum force, total;
+  for (std::size_t s = 0; s < owned_followers.size(); ++s)
+  {
+    const std::size_t i = owned_followers[s];
+    const Vec v = followers.velocity[i];
+    const double mass = followers.lumped_mass[i];
+    total.add(mass * (v - start_velocity[s]) - impulse[s]);
+    if (last_step > 0.) // the last half kick: a = 2 (v - v_mid)/dt
+      force.add((2. * mass / last_step) * (v - mid_velocity[s]) -
+                follower_force[s]);
+  }
+  ExactVectorSum::reduce({&force, &total}, communicator);
+  Resultant on_follower{name, follower, force.value(), total.value(), false},
+      on_leader{name, leader, {}, {}, false};
+  for (int d = 0; d < 3; ++d)
+  {
+    on_leader.force[d] = -on_follower.force[d];
+    on_leader.impulse[d] = -on_follower.impulse[d];
+  }
+  return {on_follower, on_leader};
 }
 
 StableStep Tie::stable_step() const

@@ -35,5 +35,6 @@ void SceneOutput::write_when_due(const OutputMoment &moment, RunFiles &files)
 void SceneOutput::visit_state(StateVisitor &visitor, const std::string &name)
 {
   visitor.visit_value(name, next);
+  visit_more(visitor, name);
 }
 } // namespace sabot

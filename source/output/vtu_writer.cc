@@ -9,6 +9,8 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -28,6 +30,7 @@ namespace
 {
 const char *const tensor_names[6] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
+/** The arrays of @p fields; each carries its unit. */
 void add_fields(const std::vector<OutputField> &fields,
                 vtkDataSetAttributes *attributes)
 {
@@ -36,6 +39,8 @@ void add_fields(const std::vector<OutputField> &fields,
     vtkNew<vtkDoubleArray> array;
     array->SetName(field.name.c_str());
     array->SetNumberOfComponents(field.n_components);
+    array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(),
+                                 field.unit.c_str());
     if (field.n_components == 6)
       for (int c = 0; c < 6; ++c)
         array->SetComponentName(c, tensor_names[c]);
@@ -122,6 +127,9 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
   grid->SetCells(n == 1 ? VTK_VERTEX : VTK_HEXAHEDRON, cells);
   add_fields(mesh.point_fields, grid->GetPointData());
   add_fields(mesh.cell_fields, grid->GetCellData());
+  // Glyphs take their color from points: there, too, where each is a cell.
+  if (n == 1)
+    add_fields(mesh.cell_fields, grid->GetPointData());
 
   std::string problem;
   const std::string file = folder + "/fields/" + piece_name(body, frame, rank);
@@ -180,7 +188,11 @@ void VtuWriter::write_collection(const std::string &body,
     }
     xml << "</" << section << ">\n";
   };
-  list("PPointData", mesh.point_fields);
+  std::vector<OutputField> at_points = mesh.point_fields;
+  if (mesh.nodes_per_cell == 1)
+    at_points.insert(at_points.end(), mesh.cell_fields.begin(),
+                     mesh.cell_fields.end());
+  list("PPointData", at_points);
   list("PCellData", mesh.cell_fields);
   xml << "<PPoints><PDataArray type=\"Float64\" Name=\"Points\" "
          "NumberOfComponents=\"3\"/></PPoints>\n";

@@ -199,6 +199,10 @@ void append_row(const Scene &scene, History &history)
       body->measure();
     history.append(body->name, body->measure().columns());
   }
+  for (const auto &coupling : scene.couplings)
+    coupling->resultants();
+  for (const auto &body : scene.bodies)
+    body->reactions();
   Measures row;
   for (const auto &quantity : scene.quantities)
     row.push_back({quantity->name, quantity->unit(), quantity->value()});
@@ -219,14 +223,18 @@ FieldSize field_size(const OutputMesh &mesh, const bool all_yield)
   for (const auto *const fields : {&mesh.point_fields, &mesh.cell_fields})
     for (const OutputField &field : *fields)
     {
-      const double now = compressed_size(field.values);
+      // Fields of vertices are written twice (VtuWriter).
+      const int n_copies =
+          mesh.nodes_per_cell == 1 && fields == &mesh.cell_fields ? 2 : 1;
+      const double now = n_copies * compressed_size(field.values);
       size.quiet += now;
       const bool is_constant = field.name == "body" || field.name == "rank" ||
                                field.name == "failed-bond fraction";
       const bool is_flow = field.unit == "1" || field.unit == "K";
-      size.disturbed += is_constant || (is_flow && !all_yield)
-                            ? now
-                            : part_of_noise * 8. * field.values.size();
+      size.disturbed +=
+          is_constant || (is_flow && !all_yield)
+              ? now
+              : n_copies * part_of_noise * 8. * field.values.size();
     }
   return size;
 }

@@ -1,6 +1,7 @@
 // The run of a scene, from set-up to result.
 #include "sabot/simulation/run.h"
 
+#include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/plan.h"
 #include "sabot/simulation/run_result.h"
@@ -56,13 +57,15 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
     : scene(scene), communicator(communicator), log(quiet, communicator),
       stepper(scene.bodies, scene.loads, scene.couplings,
               step_limits(scene.settings), timers, communicator),
-      balance(scene, communicator), report(scene, balance, log),
+      balance(scene, communicator), forces(scene), report(scene, balance, log),
       files(folder, communicator),
       checkpoints(folder + "/checkpoint", communicator),
       schedule(scene.settings, communicator)
 {
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);
+  for (const auto &quantity : scene.quantities)
+    quantity->attach(files.history);
 }
 
 ExitCode Run::execute(const std::string &checkpoint)
@@ -147,6 +150,7 @@ void Run::start(const std::string &checkpoint)
   {
     checkpoints.clear();
     balance.start();
+    forces.start(measure_bodies());
     record();
     write_outputs(false);
   }
@@ -216,22 +220,36 @@ void Run::loop()
   }
 }
 
+std::vector<BodyMeasures> Run::measure_bodies() const
+{
+  std::vector<BodyMeasures> measures;
+  for (const auto &body : scene.bodies)
+    measures.push_back(body->measure());
+  return measures;
+}
+
 void Run::record()
 {
   balance.look(stepper.time(), stepper.last_step());
   files.history.append("ledger", balance.row());
+  const std::vector<BodyMeasures> measures = measure_bodies();
   for (const auto &body : scene.bodies)
   {
     Measures row = {{"time", "s", stepper.time()}};
-    const Measures columns = body->measure().columns();
+    const Measures columns = measures[body->id].columns();
     row.insert(row.end(), columns.begin(), columns.end());
     files.history.append(body->name, row);
   }
+  forces.look(measures);
+  forces.append(files.history, stepper.time());
   if (scene.quantities.empty())
     return;
   Measures row = {{"time", "s", stepper.time()}};
   for (const auto &quantity : scene.quantities)
+  {
+    quantity->look(stepper.time());
     row.push_back({quantity->name, quantity->unit(), quantity->value()});
+  }
   files.history.append("quantities", row);
 }
 
@@ -256,7 +274,7 @@ void Run::write_result(const std::string &status, const std::string &reason)
       stepper.steps(), stepper.time(), earlier_seconds + seconds_since_start(),
       smallest_step};
   const nlohmann::ordered_json result =
-      make_result(scene, summary, balance, timers, zones, communicator);
+      make_result(scene, summary, balance, forces, timers, zones, communicator);
   std::string problem;
   if (rank == 0)
     try
@@ -288,7 +306,10 @@ void Run::write_result(const std::string &status, const std::string &reason)
     {
       std::snprintf(text, sizeof(text), "  %s: %.6g %s", quantity->name.c_str(),
                     quantity->value(), quantity->unit().c_str());
-      log.line(text);
+      std::string line = text;
+      for (const Measure &m : quantity->details())
+        line += ", " + m.name + formatted(" %.6g ", m.value) + m.unit;
+      log.line(line);
     }
 }
 } // namespace sabot

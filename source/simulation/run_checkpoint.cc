@@ -20,7 +20,10 @@ void Run::visit_state(StateVisitor &visitor)
   visitor.visit_value("next check", next_check);
   for (std::size_t o = 0; o < scene.outputs.size(); ++o)
     scene.outputs[o]->visit_state(visitor, "next output " + std::to_string(o));
+  for (const auto &quantity : scene.quantities)
+    quantity->visit_state(visitor, "quantity " + quantity->name);
   balance.visit_state(visitor);
+  forces.visit_state(visitor);
   double seconds = earlier_seconds + seconds_since_start();
   visitor.visit_value("wall seconds", seconds);
   if (visitor.is_restoring())

@@ -90,6 +90,20 @@ void add_fragments(const Body &body, ordered_json &result)
   }
 }
 
+/** Force now and impulse since the start of each source on each body. */
+void add_resultants(const std::vector<Resultant> &resultants,
+                    const Scene &scene, ordered_json &entry)
+{
+  const auto vector = [](const std::array<double, 3> &v) {
+    return ordered_json{number(v[0]), number(v[1]), number(v[2])};
+  };
+  for (const Resultant &r : resultants)
+    entry["resultants"].push_back({{"source", r.source},
+                                   {"body", scene.bodies[r.body]->name},
+                                   {"force", vector(r.force)},
+                                   {"impulse", vector(r.impulse)}});
+}
+
 ordered_json body_results(const Scene &scene)
 {
   ordered_json bodies = ordered_json::object();
@@ -111,6 +125,7 @@ ordered_json body_results(const Scene &scene)
     b["bonds_broken_fraction"] = number(measures.bonds_broken_fraction);
     b["eroded_mass"] = number(measures.eroded_mass);
     add_fragments(*body, b);
+    add_resultants(body->reactions(), scene, b);
     bodies[body->name] = b;
   }
   return bodies;
@@ -161,6 +176,7 @@ void add_couplings(const Scene &scene, ordered_json &r)
         initial = std::max(initial, m.value);
       entry[json_key(m.name)] = number(m.value);
     }
+    add_resultants(coupling->resultants(), scene, entry);
   }
   r["contact"] = {{"penetration_max_over_spacing", number(penetration)},
                   {"initial_penetration_over_spacing", number(initial)}};
@@ -180,7 +196,8 @@ void add_resources(ordered_json &r, MPI_Comm communicator)
 } // namespace
 
 ordered_json make_result(const Scene &scene, const RunSummary &summary,
-                         const EnergyBalance &balance, const Timers &timers,
+                         const EnergyBalance &balance, const ForceBook &forces,
+                         const Timers &timers,
                          const std::vector<ZoneVerdict> &zones,
                          MPI_Comm communicator)
 {
@@ -196,9 +213,9 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
   r["wall_seconds"] = summary.wall_seconds;
   add_resources(r, communicator);
   r["energy_residual_max"] = number(balance.largest_residual());
-  r["momentum_residual_max"] = scene.is_free
-                                   ? number(balance.largest_momentum_residual())
-                                   : ordered_json(nullptr);
+  r["momentum_residual_max"] =
+      number(scene.is_free ? balance.largest_momentum_residual()
+                           : forces.largest_momentum_residual());
   r["stable_step_min"] =
       summary.steps > 0 ? number(summary.smallest_step) : ordered_json(nullptr);
   r["bodies"] = body_results(scene);
@@ -206,9 +223,15 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
   // A state that went wrong has numbers, but they answer nothing.
   const bool is_valid = summary.status != "failed";
   for (const auto &quantity : scene.quantities)
-    r["quantities"][quantity->name] = {
+  {
+    ordered_json &entry = r["quantities"][quantity->name];
+    entry = {
         {"value", is_valid ? number(quantity->value()) : ordered_json(nullptr)},
         {"unit", quantity->unit()}};
+    for (const Measure &m : quantity->details())
+      if (is_valid)
+        entry[json_key(m.name)] = number(m.value);
+  }
   r["energy"] = ordered_json::object();
   for (const Measure &m : balance.row())
     if (m.unit == "J")

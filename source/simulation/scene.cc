@@ -170,11 +170,21 @@ void Scene::build_outputs()
   {
     const EnteredSubsection entered(prm, "Outputs", name);
     outputs.push_back(SceneOutput::make(prm, "Outputs/" + name));
+    std::vector<const Body *> all;
+    for (const auto &body : bodies)
+      all.push_back(body.get());
+    outputs.back()->choose(name, all);
   }
 }
 
 void Scene::build_quantities()
 {
+  std::vector<std::string> tables = {"ledger", "forces", "impulses"};
+  for (const auto &body : bodies)
+    tables.push_back(body->name);
+  for (const auto &output : outputs)
+    if (!output->table().empty())
+      tables.push_back(output->table());
   for (const std::string &name : names_of("quantities"))
   {
     const EnteredSubsection entered(prm, "Quantities", name);
@@ -183,7 +193,7 @@ void Scene::build_quantities()
     { return *bodies[body_index(path + "/" + entry, prm.get(entry))]; };
     quantities.push_back(
         Registry<QuantityOfInterest>::get(path + "/Type", prm.get("Type"))
-            .make({prm, path, name, body, communicator}));
+            .make({prm, path, name, body, communicator, tables}));
     quantities.back()->name = name;
   }
 }
@@ -263,5 +273,56 @@ void Scene::distribute()
     const std::vector<std::string> odd = (*coupling)->warnings();
     warnings.insert(warnings.end(), odd.begin(), odd.end());
   }
+  for (const auto &quantity : quantities)
+    quantity->check([this](const std::string &table)
+                    { return columns_of(table); });
+}
+
+std::vector<std::string> Scene::columns_of(const std::string &table) const
+{
+  for (const auto &output : outputs)
+    if (output->table() == table)
+      return output->columns();
+  Measures row = {{"time", "s", 0.}};
+  for (const auto &body : bodies)
+    if (body->name == table)
+    {
+      const Measures own = body->measure().columns();
+      row.insert(row.end(), own.begin(), own.end());
+    }
+  if (table == "ledger")
+  {
+    row.push_back({"step size", "s", 0.});
+    for (const EnergyTerm &term : energy_terms)
+      row.push_back({term.name, "J", 0.});
+    row.push_back({"total", "J", 0.});
+    row.push_back({"residual", "1", 0.});
+  }
+  if (table == "forces" || table == "impulses")
+    for (const Resultant &r : resultants())
+      for (const char axis : {'x', 'y', 'z'})
+        row.push_back(
+            {column_of(r, axis), table == "forces" ? "N" : "N s", 0.});
+  std::vector<std::string> columns;
+  for (const Measure &m : row)
+    columns.push_back(m.name + " [" + m.unit + "]");
+  return columns;
+}
+
+std::vector<Resultant> Scene::resultants() const
+{
+  std::vector<Resultant> all;
+  const auto take = [&](const std::vector<Resultant> &some)
+  { all.insert(all.end(), some.begin(), some.end()); };
+  for (const auto &body : bodies)
+    take(body->reactions());
+  for (const auto &coupling : couplings)
+    take(coupling->resultants());
+  return all;
+}
+
+std::string Scene::column_of(const Resultant &r, const char axis) const
+{
+  return r.source + " on " + bodies[r.body]->name + " " + axis;
 }
 } // namespace sabot

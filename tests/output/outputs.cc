@@ -38,7 +38,7 @@ TEST_F(Outputs, are_found_by_name)
   std::vector<std::string> names;
   for (const auto &entry : Registry<SceneOutput>::entries())
     names.push_back(entry.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"VTU", "history"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"VTU", "gauge", "history"}));
 }
 
 TEST_F(Outputs, fall_due_at_multiples_of_their_interval)

@@ -13,6 +13,8 @@ import subprocess
 import sys
 import unittest
 
+from vtu import read_vtu
+
 SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
 QUICK = os.path.join(SOURCE, "prm/perforation/quick.prm")
 BAR = os.path.join(SOURCE, "tests/scenes/bar.prm")
@@ -181,6 +183,83 @@ class Answers(unittest.TestCase):
         self.assertLess(step["cpu_seconds"], 1.05 * step["seconds"])
         total = sum(t["cpu_seconds"] for name, t in r["timers"].items())
         self.assertLess(total, 1.1 * r["cpu_seconds"])
+
+
+    def test_answers_are_the_same_on_1_2_and_3_ranks_and_resumed(self):
+        # Forces, gauge, extremes; the kernel is renewed and bonds fail between
+        # the checkpoint and the end.
+        scene = os.path.join(SOURCE, "tests/scenes/held-plate.prm")
+        histories, answers = [], []
+        for name, ranks, extra in (
+                ("held1", 1, ()), ("held2", 2, ()), ("held3", 3, ()),
+                ("held-parts", 2, ("Checkpoint interval in steps=21",
+                                   "Checkpoint at the end=false"))):
+            out = folder(name)
+            self.run_scene(scene, out, *extra, ranks=ranks)
+            if extra:
+                os.remove(os.path.join(out, "history.h5"))
+                done = sabot("resume", out, "--quiet", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.assertIn("resumed at step 21",
+                              read(out, "log.txt").decode())
+            r = result(out)
+            self.assertLess(r["momentum_residual_max"], 1e-12)
+            self.assertGreater(r["bodies"]["core"]["bonds_broken"], 0)
+            histories.append(read(out, "history.h5"))
+            answers.append((r["quantities"], r["couplings"], r["bodies"]))
+        for history, answer in zip(histories[1:], answers[1:]):
+            self.assertEqual(history, histories[0])
+            self.assertEqual(answer, answers[0])
+        for quantity in ("stress", "peak"):
+            for key in ("value", "at_time", "x", "y", "z"):
+                self.assertIsNotNone(answers[0][0][quantity][key])
+
+    def test_fields_have_one_association_a_unit_and_a_size(self):
+        scene = os.path.join(SOURCE, "tests/scenes/held-plate.prm")
+        out = folder("fields")
+        self.run_scene(scene, out, "List of outputs=averages, rear, fields",
+                       "Outputs/fields/Type=VTU", "End time=3 us",
+                       "Outputs/fields/Interval=3 us", ranks=2)
+
+        def arrays(text, section):
+            part = re.search("<%s.*?</%s>" % (section, section), text, re.S)
+            return set(re.findall('Name="([^"]*)"', part.group(0)))
+        files = sorted(glob.glob(os.path.join(out, "fields/*_000001*.vtu")))
+        self.assertEqual(len(files), 6)
+        in_cells = {}
+        for name in files:
+            text = read(name).split(b"<AppendedData")[0].decode()
+            body = os.path.basename(name).split("_")[0]
+            cells, points = arrays(text, "CellData"), arrays(text, "PointData")
+            in_cells[body] = cells
+            for field in ("stress", "von Mises", "pressure", "body", "rank",
+                          "effective plastic strain"):
+                self.assertIn(field, cells, name)
+            for field in ("displacement", "velocity"):
+                self.assertIn(field, points)
+                self.assertNotIn(field, cells)
+            self.assertEqual("diameter" in points, body == "core")
+            if body == "core":
+                self.assertEqual(cells - points, set())
+            # Every array but VTK's own of the mesh tells its unit.
+            units = re.findall('<InformationKey name="UNITS_LABEL"[^>]*>\\s*'
+                               '([^<\\s]+)', text)
+            self.assertEqual(len(units), len(re.findall(
+                'DataArray [^>]*Name="(?!Points|connectivity|offsets|types)',
+                text)), name)
+            self.assertIn("Pa", units)
+        self.assertLessEqual(in_cells["plate"], in_cells["core"])
+        core = [read_vtu(name) for name in files if "/core" in name]
+        diameters = [d for piece in core for d in piece["diameter"]]
+        volume = sum(d ** 3 for d in diameters)
+        self.assertAlmostEqual(volume, 5e-3 * 5e-3 * 4e-3, delta=0.1 * volume)
+        # Pieces by size: 0 is what is left of the body.
+        pieces = [int(f) for piece in core for f in piece["fragment"]]
+        sizes = [pieces.count(n) for n in range(max(pieces) + 1)]
+        self.assertEqual(sum(sizes), len(pieces))
+        self.assertGreater(sizes[0], 0.5 * len(pieces))
+        self.assertEqual(result(out)["bodies"]["core"]["fragment_count"],
+                         len(sizes))
 
 
 if __name__ == "__main__":

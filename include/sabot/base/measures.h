@@ -1,6 +1,7 @@
 #ifndef sabot_base_measures_h
 #define sabot_base_measures_h
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -70,6 +71,17 @@ struct OutputField
   std::vector<double> values;    // [n_items * n_components]
 };
 
+/** Output fields, all that there are or those that are wanted only. */
+struct FieldList : std::vector<OutputField>
+{
+  std::vector<std::string> wanted; // names; empty: all
+  bool wants(const std::string &name) const
+  {
+    return wanted.empty() ||
+           std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+  }
+};
+
 /**
  * What one rank writes of one body: shared nodes on the deformed
  * configuration, hexahedra or single points. A rank without nodes of the body
@@ -80,7 +92,7 @@ struct OutputMesh
   std::vector<double> points;             // [n_points * 3]
   unsigned int nodes_per_cell = 8;        // 8: hexahedra (VTK order), 1: points
   std::vector<std::int64_t> connectivity; // [n_cells * nodes_per_cell]
-  std::vector<OutputField> point_fields, cell_fields;
+  FieldList point_fields, cell_fields;
 };
 } // namespace sabot
 

@@ -4,6 +4,7 @@
 #include "sabot/base/ledger.h"
 #include "sabot/base/measures.h"
 #include "sabot/base/nodal_state.h"
+#include "sabot/base/resultant.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body_facts.h"
 #include "sabot/bodies/velocity_constraints.h"
@@ -229,9 +230,15 @@ public:
   virtual void add_energies(EnergyLedger &ledger) const = 0;
   /** The whole body at this moment. Collective, same on all ranks. */
   virtual BodyMeasures measure() const = 0;
-  /** This rank's part, at present positions [m]; names and units of fields
-      are described ones. */
-  virtual OutputMesh output_mesh() const = 0;
+  /** This rank's part, at present positions [m], with the fields @p wanted, or
+      all; names and units of fields are described ones. Collective. */
+  OutputMesh output_mesh(const std::vector<std::string> &wanted = {}) const
+  {
+    OutputMesh mesh;
+    mesh.point_fields.wanted = mesh.cell_fields.wanted = wanted;
+    fill_output(mesh);
+    return mesh;
+  }
   /** Everything that a restart needs. The same order for writing and
       reading; collective where bonds or ghosts have to be found again. */
   virtual void visit_state(StateVisitor &visitor) = 0;
@@ -267,6 +274,18 @@ public:
   /** Its true shape at the start, before distribute(); without faces where it
       has none to show. */
   virtual Outline outline() const { return Outline(); }
+  /** What holds or drives its nodes from outside, by kind: "clamped faces",
+      "symmetry faces", "driven faces", "prescribed motion" of the whole body.
+      Collective. */
+  virtual std::vector<Resultant> reactions() const { return {}; }
+  /** Add this rank's share of the force [N] on the part of the body that lies
+      beyond a plane of the reference configuration, X . @p normal > @p offset
+      [m], by the rest of the body: the internal forces of its nodes. Nothing of
+      a body without stress. Local. */
+  virtual void add_section_force(const Vec /*normal*/, const double /*offset*/,
+                                 ExactVectorSum & /*sum*/) const
+  {
+  }
   /** Whether something outside of the scene acts on it, e.g. a clamp, so that
       momentum is not kept. */
   virtual bool is_held() const = 0;
@@ -286,6 +305,9 @@ public:
   virtual std::string step_timer_name() const = 0;
 
 protected:
+  /** The mesh and those fields that its lists want. Collective. */
+  virtual void fill_output(OutputMesh &mesh) const = 0;
+
   NodalState nodal_state;
 };
 } // namespace sabot

@@ -20,7 +20,7 @@ namespace sabot
  * @param state   [count_states()][n], in the order of the variables; tensors
  *                take six arrays and are left out
  */
-void add_material_fields(std::vector<OutputField> &fields,
+void add_material_fields(FieldList &fields,
                          const std::vector<std::size_t> &items,
                          const std::size_t n, const double *stress,
                          const double *state,
@@ -29,11 +29,14 @@ void add_material_fields(std::vector<OutputField> &fields,
 /** A field with value(item, component) for @p n items; unit and number of
     components are those of its description (base/output_fields.h). Item by
     item, components adjacent. The name must have been described, as
-    DescribeField does at the bottom of the file that owns the field. Local. */
+    DescribeField does at the bottom of the file that owns the field. Nothing
+    where the list does not want it. Local. */
 template <typename Value>
-void add_field(std::vector<OutputField> &fields, const std::string &name,
-               const std::size_t n, const Value &value)
+void add_field(FieldList &fields, const std::string &name, const std::size_t n,
+               const Value &value)
 {
+  if (!fields.wants(name))
+    return;
   const FieldDescription &described = described_field(name);
   OutputField field{name, described.unit, described.n_components, {}};
   field.values.reserve(n * field.n_components);

@@ -200,7 +200,7 @@ public:
               const double jacobian) const;
   /** Stress, von Mises stress, pressure and scalar states as output fields.
       Values in the order of points; units as registered in body_report.cc. */
-  void add_fields(std::vector<OutputField> &fields,
+  void add_fields(FieldList &fields,
                   const std::vector<std::size_t> &points) const;
   /** Everything that a restart needs, padding included; bit by bit. */
   void visit_state(StateVisitor &visitor);

@@ -3,6 +3,7 @@
 
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/nodal_state.h"
+#include "sabot/base/resultant.h"
 
 #include <array>
 #include <map>
@@ -17,7 +18,8 @@ namespace sabot
  *
  * The reaction on a component with constant velocity is minus the node's force
  * there, so what drives the nodes does the work -f . v dt on the body
- * (trapezoidal over the step, as the work of couplings).
+ * (trapezoidal over the step, as the work of couplings). Its impulse is what
+ * impose() gives a node, inertia times the change of the velocity.
  *
  * Used as prescribe() for each component, finish(), then impose() after every
  * kick. No function is collective; ghosts' velocities come from their owners.
@@ -25,10 +27,18 @@ namespace sabot
 class VelocityConstraints
 {
 public:
+  /** What holds a component. */
+  enum class Holder : int
+  {
+    symmetry,
+    drive,
+    clamp
+  };
   /** Hold component @p axis of node @p i; a later call replaces an earlier.
       i local and owned, axis 0 to 2, velocity [m/s]. FemBoundary relies on
       the order: planes of symmetry, driven faces, clamped ones. */
-  void prescribe(const std::size_t i, const int axis, const double velocity);
+  void prescribe(const std::size_t i, const int axis, const double velocity,
+                 const Holder by);
   /** Once, after the last prescribe(). Sorts by node, and finds out whether
       any velocity differs from zero: without, there is no work to be done. */
   void finish();
@@ -38,12 +48,21 @@ public:
   std::pair<Vec, Vec> held_at(const std::size_t i) const;
 
   /** Set the held components of the velocity; the others stay. v := free * v
-      + value by component, the same bits wherever the node is owned. */
-  void impose(NodalState &nodes) const;
+      + value by component, the same bits wherever the node is owned. The
+      first call makes the start of the run: what it changes is no impulse. */
+  void impose(NodalState &nodes);
   /** Work along @p half_dt with the current forces; collective with nobody.
       -dt/2 f . v_prescribed [J]; tied followers, which have no inertia of
       their own, are moved by their leaders and do not count. */
   void accumulate_work(const NodalState &nodes, const double half_dt);
+  /** Reactions on the nodes of body number @p body, one for each of @p kinds,
+      which must be the same on every rank. Followers' velocities are their
+      leaders'. Collective. */
+  std::vector<Resultant> reactions(const NodalState &nodes, const int body,
+                                   const std::vector<Holder> &kinds,
+                                   MPI_Comm communicator) const;
+  /** Impulses so far. */
+  void visit_state(StateVisitor &visitor);
   /** Work done on the owned nodes so far [J]. */
   const ExactSum &work() const { return done; }
   ExactSum &work() { return done; }
@@ -54,10 +73,18 @@ private:
     std::size_t node;
     Vec free;  // 1 where the component is free, else 0
     Vec value; // [m/s], 0 where the component is free
+    std::array<Holder, 3> by;
   };
-  std::map<std::size_t, std::array<std::array<double, 2>, 3>> collected;
-  AlignedVector<Held> held; // ascending
-  bool has_work = false;
+  struct Component
+  {
+    bool is_held = false;
+    double velocity = 0.;
+    Holder by = Holder::clamp;
+  };
+  std::map<std::size_t, std::array<Component, 3>> collected;
+  AlignedVector<Held> held;   // ascending
+  AlignedVector<Vec> impulse; // of each of them [N s]
+  bool has_work = false, has_started = false;
   ExactSum done;
 };
 } // namespace sabot

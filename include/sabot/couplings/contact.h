@@ -46,6 +46,10 @@ public:
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;
+  std::vector<Resultant> resultants() const override
+  {
+    return forces.resultants(name, holds_apart(), halo, communicator);
+  }
   void visit_state(StateVisitor &visitor) override;
 
   /** Largest penetration at the start over the nodal spacing, the same on all

@@ -3,6 +3,7 @@
 
 #include "sabot/base/ledger.h"
 #include "sabot/base/measures.h"
+#include "sabot/base/resultant.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body.h"
 
@@ -64,6 +65,9 @@ public:
   /** For results, e.g. tied nodes, penetration. Collective, same on all
       ranks. */
   virtual Measures measure() const { return {}; }
+  /** What it does to each body that it holds apart or ties; none where bodies
+      only meet themselves. Collective. */
+  virtual std::vector<Resultant> resultants() const { return {}; }
   /** Everything that a restart needs and initialize() does not find. */
   virtual void visit_state(StateVisitor &) {}
 };

@@ -3,8 +3,11 @@
 
 #include "sabot/base/ledger.h"
 #include "sabot/base/measures.h"
+#include "sabot/base/resultant.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/couplings/node_halo.h"
+
+#include <utility>
 
 namespace sabot
 {
@@ -22,14 +25,16 @@ class HaloForces
 public:
   AlignedVector<Vec> normal, friction; // per slot [N]
 
-  /** For a halo of @p n slots; all forces zero. Work done so far stays. */
+  /** For a halo of @p n slots; all forces zero. Work and impulses so far
+      stay. */
   void resize(const std::size_t n);
   /** All forces zero. */
   void clear();
   /** Adds normal + friction of the owned nodes to their bodies' forces. */
   void add_to_bodies(const NodeHalo &halo);
   /** Work of the present forces along @p half_dt times the bodies' present
-      velocities, on owned nodes. */
+      velocities, on owned nodes, and their impulse, which is what the half kick
+      beside it gives. */
   void accumulate_work(const NodeHalo &halo, const double half_dt);
   /** What the forces took from the bodies, this rank's share: -W, so that
       stored and dissipated energy are positive. */
@@ -37,13 +42,27 @@ public:
   /** Appends "contact energy" and "friction energy" [J]. Collective, the same
       on all ranks. */
   void add_measures(Measures &measures, MPI_Comm communicator) const;
+  /** What acts on each body of @p pairs that is not met by itself alone; named
+      @p source. Collective. */
+  std::vector<Resultant>
+  resultants(const std::string &source,
+             const std::vector<std::pair<int, int>> &pairs,
+             const NodeHalo &halo, MPI_Comm communicator) const;
   /** After resize(): forces are part of the state, for half of their work along
       the next step is still to be counted. */
   void visit_state(StateVisitor &visitor);
 
 private:
+  /** To the bodies' sums: what the slots of the last halo got. */
+  void settle_impulses();
+
   AlignedVector<Vec> total;             // normal + friction, per slot [N]
   ExactSum contact_work, friction_work; // on owned nodes [J]
+  /** Impulse of each owned slot since the halo was built, cheap as it is summed
+      in every step, and its body; of earlier halos, by body. */
+  AlignedVector<Vec> impulse; // [N s]
+  std::vector<std::int32_t> body_of;
+  std::vector<ExactVectorSum> settled;
 };
 } // namespace sabot
 

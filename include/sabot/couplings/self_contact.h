@@ -51,6 +51,10 @@ public:
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
   Measures measure() const override;
+  std::vector<Resultant> resultants() const override
+  {
+    return forces.resultants(name, body_pairs, halo, communicator);
+  }
   void visit_state(StateVisitor &visitor) override;
 
 private:

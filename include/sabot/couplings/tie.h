@@ -54,6 +54,10 @@ public:
   void add_energies(EnergyLedger &ledger) const override;
   void visit_state(StateVisitor &visitor) override;
   Measures measure() const override;
+  /** On the follower what moves it as it does beside its own forces: the change
+      of its momentum less the impulse of f_f; on the leader the opposite. As a
+      force, m_f a_f - f_f. */
+  std::vector<Resultant> resultants() const override;
   StableStep stable_step() const override;
 
 private:
@@ -117,6 +121,11 @@ private:
   AlignedVector<Vec> follower_force;        // owned, then others'
   std::vector<Term> forces;                 // owned leaders from followers
   ExactSum work; // of the tie, on owned followers and leaders [J]
+  // Of owned followers.
+  AlignedVector<Vec> impulse;        // of their own forces so far [N s]
+  AlignedVector<Vec> start_velocity; // [m/s]
+  AlignedVector<Vec> mid_velocity;   // in the middle of the last step [m/s]
+  double last_step = 0.;             // [s], 0: none yet
 };
 } // namespace sabot
 

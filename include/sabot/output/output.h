@@ -65,15 +65,29 @@ public:
       before the write. */
   virtual bool needs_rows() const { return false; }
 
+  /** Once, when the bodies of the scene are known; InputError where they do not
+      have what it asks for. @p name: in the list of outputs. Not collective. */
+  virtual void choose(const std::string & /*name*/,
+                      const std::vector<const Body *> & /*bodies*/)
+  {
+  }
+  /** Name of the table of the histories to which it adds rows; empty: none. */
+  virtual std::string table() const { return ""; }
+  /** Columns of that table, "name [unit]", once the bodies have been
+      distributed. Collective. */
+  virtual std::vector<std::string> columns() const { return {}; }
+
   /** Called once before the first write. Collective; IOError on all ranks. */
   virtual void open(RunFiles & /*files*/) {}
   /** write() where it is due or @p moment the last; then the next multiple of
       the interval falls due. Collective; IOError on all ranks. */
   void write_when_due(const OutputMoment &moment, RunFiles &files);
-  /** The time that falls due next, as part of the state @p name. */
+  /** The time that falls due next, as part of the state @p name, then what the
+      kind of output keeps. */
   void visit_state(StateVisitor &visitor, const std::string &name);
 
 protected:
+  virtual void visit_more(StateVisitor &, const std::string & /*name*/) {}
   /** Collective; every rank must throw IOError when one cannot write. */
   virtual void write(const OutputMoment &moment, RunFiles &files) = 0;
 

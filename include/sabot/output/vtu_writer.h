@@ -17,8 +17,10 @@ namespace sabot
  * ranks' pieces), in fields/; sabot.pvd lists all bodies at all times as one
  * scene. All files are written new, then renamed. Symmetric tensors have
  * components XX, YY, ZZ, XY, YZ, XZ; points are in current positions [m],
- * fields in SI units. Particles are vertices.
- *
+ * fields in SI units, which every array carries as VTK's UNITS_LABEL. Particles
+ * are vertices: what cells have as cell data they have as such, too, so that a
+ * field has one name and one association throughout the scene, and once more
+ * as point data for glyphs.
  *
  *     sabot.pvd                    which bodies at which times
  *     fields/plate_000012.vtu      body "plate", frame 12, one rank

@@ -7,6 +7,7 @@
 #include "sabot/output/run_files.h"
 #include "sabot/simulation/balance.h"
 #include "sabot/simulation/checkpoint_schedule.h"
+#include "sabot/simulation/force_book.h"
 #include "sabot/simulation/run_report.h"
 #include "sabot/simulation/scene.h"
 
@@ -84,9 +85,11 @@ private:
   void make_step(const StepProposal &proposal);
   /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
+  /** Of all bodies, by number. Collective. */
+  std::vector<BodyMeasures> measure_bodies() const;
   /**
-   * Balance, then a row for the ledger, each body and the quantities.
-   * Collective.
+   * Balance and forces, then a row for the ledger, each body, forces and
+   * impulses, and the quantities. Collective.
    */
   void record();
   /** What is due, and with @p is_last all of it and history.h5. Collective. */
@@ -118,6 +121,7 @@ private:
   Timers timers;
   Stepper stepper;
   EnergyBalance balance;
+  ForceBook forces;
   RunReport report;
   RunFiles files;
   CheckpointFolder checkpoints;

@@ -3,6 +3,7 @@
 
 #include "sabot/base/timers.h"
 #include "sabot/simulation/balance.h"
+#include "sabot/simulation/force_book.h"
 #include "sabot/simulation/zone_verdict.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -37,14 +38,16 @@ struct RunSummary
  * "quantities" (null after a failure), "energy" [J], "timers" (wall and
  * processor seconds of this rank, calls, ns per item), "contact", "couplings",
  * "zone", "knobs". Numbers that are not finite become null, as JSON has none.
- * Processor seconds and peak memory are sums over ranks. The momentum residual
- * is null where something holds a body from outside. Of fragments the twenty
+ * Processor seconds and peak memory are sums
+ * over ranks. The momentum residual is that of EnergyBalance, or that of
+ * ForceBook where something holds a body from outside. Of fragments the twenty
  * heaviest stand in it.
  */
 nlohmann::ordered_json
 make_result(const Scene &scene, const RunSummary &summary,
-            const EnergyBalance &balance, const Timers &timers,
-            const std::vector<ZoneVerdict> &zones, MPI_Comm communicator);
+            const EnergyBalance &balance, const ForceBook &forces,
+            const Timers &timers, const std::vector<ZoneVerdict> &zones,
+            MPI_Comm communicator);
 } // namespace sabot
 
 #endif

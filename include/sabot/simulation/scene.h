@@ -102,6 +102,15 @@ public:
    */
   std::vector<std::pair<std::string, std::string>> knobs() const;
 
+  /** Who pushes whom: reactions of bodies, then what couplings do. After
+      distribute(); collective. */
+  std::vector<Resultant> resultants() const;
+  /** Column of the tables `forces` and `impulses`, without unit. */
+  std::string column_of(const Resultant &resultant, const char axis) const;
+  /** Columns that a table of the histories has, "name [unit]"; only "time [s]"
+      where there is no such table. After distribute(); collective. */
+  std::vector<std::string> columns_of(const std::string &table) const;
+
   RunSettings settings;
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<std::unique_ptr<Load>> loads;         // in the list's order

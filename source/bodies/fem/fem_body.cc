@@ -237,6 +237,42 @@ bool FemBody::is_held() const
          !options.driven_boundary_ids.empty();
 }
 
+std::vector<Resultant> FemBody::reactions() const
+{
+  using Holder = VelocityConstraints::Holder;
+  std::vector<Holder> kinds;
+  if (!options.symmetry_boundary_ids.empty())
+    kinds.push_back(Holder::symmetry);
+  if (!options.driven_boundary_ids.empty())
+    kinds.push_back(Holder::drive);
+  if (!options.clamped_boundary_ids.empty())
+    kinds.push_back(Holder::clamp);
+  return constraints.reactions(nodal_state, id, kinds, communicator);
+}
+
+void FemBody::add_section_force(const Vec normal, const double offset,
+                                ExactVectorSum &sum) const
+{
+  for (std::size_t e = 0; e < cells->size(); ++e)
+  {
+    bool is_beyond[8];
+    int n_beyond = 0;
+    for (int a = 0; a < 8; ++a)
+    {
+      const Vec X = nodal_state.reference_position[cells->connectivity[e][a]];
+      is_beyond[a] = dot(X, normal) > offset;
+      n_beyond += is_beyond[a];
+    }
+    if (!owned_cell[e] || n_beyond == 0 || n_beyond == 8)
+      continue;
+    Vec force[8];
+    cells->cell_forces(nodal_state, e, force);
+    for (int a = 0; a < 8; ++a)
+      if (is_beyond[a])
+        sum.add(force[a]);
+  }
+}
+
 std::vector<MaterialSite> FemBody::material_sites() const
 {
   const std::vector<double> eps = cells->cell_state("effective plastic strain");
@@ -255,11 +291,10 @@ std::vector<MaterialSite> FemBody::material_sites() const
   return sites;
 }
 
-OutputMesh FemBody::output_mesh() const
+void FemBody::fill_output(OutputMesh &out) const
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  OutputMesh out;
   const std::size_t n_nodes = nodal_state.size();
   for (std::size_t i = 0; i < n_nodes; ++i)
     for (int d = 0; d < 3; ++d)
@@ -288,7 +323,6 @@ OutputMesh FemBody::output_mesh() const
             [&](std::size_t, unsigned int) { return double(id); });
   add_field(out.cell_fields, "rank", owned.size(),
             [&](std::size_t, unsigned int) { return double(rank); });
-  return out;
 }
 
 void FemBody::visit_state(StateVisitor &visitor)
@@ -309,6 +343,7 @@ void FemBody::visit_state(StateVisitor &visitor)
     visitor.visit_value("last conduction", last_conduction);
   }
   visitor.visit_value("external work", constraints.work());
+  constraints.visit_state(visitor);
 }
 
 ContactSurface FemBody::contact_surface() const

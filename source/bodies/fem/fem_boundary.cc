@@ -99,10 +99,11 @@ void FemBoundary::set_up(
   for (const std::size_t node : driven)
     for (int d = 0; d < 3; ++d)
       if (options.driven_components[d])
-        constraints.prescribe(node, d, options.driven_velocity[d]);
+        constraints.prescribe(node, d, options.driven_velocity[d],
+                              VelocityConstraints::Holder::drive);
   for (const std::size_t node : clamped)
     for (int d = 0; d < 3; ++d)
-      constraints.prescribe(node, d, 0.);
+      constraints.prescribe(node, d, 0., VelocityConstraints::Holder::clamp);
   constraints.finish();
 }
 
@@ -114,7 +115,8 @@ void FemBoundary::hold_on_planes(const std::map<std::size_t, int> &planes,
       if (bits & 1 << d)
       {
         ++n_symmetry_planes[node];
-        constraints.prescribe(node, d, 0.);
+        constraints.prescribe(node, d, 0.,
+                              VelocityConstraints::Holder::symmetry);
       }
 }
 

@@ -207,7 +207,21 @@ void RigidBody::accumulate_work(const double half_dt)
     return;
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
     if (norm_square(nodal_state.force[i]) > 0.)
+    {
       work.add(-half_dt * dot(nodal_state.force[i], nodal_state.velocity[i]));
+      impulse.add(-half_dt * nodal_state.force[i]);
+    }
+}
+
+std::vector<Resultant> RigidBody::reactions() const
+{
+  if (!options.is_prescribed)
+    return {};
+  ExactVectorSum force, total = impulse;
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    force.add(-1. * nodal_state.force[i]);
+  ExactVectorSum::reduce({&force, &total}, communicator);
+  return {{"prescribed motion", id, force.value(), total.value(), true}};
 }
 
 void RigidBody::compute_forces(const double, const double dt)
@@ -271,11 +285,10 @@ BodyFacts RigidBody::facts() const
   return facts;
 }
 
-OutputMesh RigidBody::output_mesh() const
+void RigidBody::fill_output(OutputMesh &out) const
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  OutputMesh out;
   const std::size_t n = nodal_state.size();
   for (std::size_t i = 0; i < n; ++i)
     for (int d = 0; d < 3; ++d)
@@ -300,7 +313,6 @@ OutputMesh RigidBody::output_mesh() const
             [&](std::size_t, unsigned int) { return double(id); });
   add_field(out.cell_fields, "rank", n_cells,
             [&](std::size_t, unsigned int) { return double(rank); });
-  return out;
 }
 
 void RigidBody::visit_state(StateVisitor &visitor)
@@ -315,6 +327,7 @@ void RigidBody::visit_state(StateVisitor &visitor)
   visitor.visit_value("momentum", momentum);
   visitor.visit_value("angular momentum", angular_momentum);
   visitor.visit_value("external work", work);
+  visitor.visit_value("reaction impulse", impulse);
 }
 
 ContactSurface RigidBody::contact_surface() const

@@ -53,13 +53,13 @@ void ParticleSurface::distribute(const ParticleCloud &cloud,
       if (planes >> d & 1)
       {
         normal[d] = 0.;
-        constraints.prescribe(i, d, 0.);
+        constraints.prescribe(i, d, 0., VelocityConstraints::Holder::symmetry);
       }
     outward[i] =
         norm_square(normal) > 0. ? cosine / norm(normal) * normal : normal;
     if (on_face[i] & clamped_faces)
       for (int d = 0; d < 3; ++d)
-        constraints.prescribe(i, d, 0.);
+        constraints.prescribe(i, d, 0., VelocityConstraints::Holder::clamp);
   }
   constraints.finish();
 }

@@ -5,6 +5,8 @@
 #include "sabot/bodies/spg/spg_body.h"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 
 namespace sabot
 {
@@ -91,6 +93,14 @@ bool SpgBody::is_held() const
   return options.symmetry_faces != 0 || options.clamped_faces != 0;
 }
 
+void SpgBody::add_section_force(const Vec normal, const double offset,
+                                ExactVectorSum &sum) const
+{
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+    if (dot(nodal_state.reference_position[i], normal) > offset)
+      sum.add(fields.own_force[i]);
+}
+
 std::vector<MaterialSite> SpgBody::material_sites() const
 {
   const double *const eps = points.state("effective plastic strain");
@@ -110,17 +120,49 @@ namespace
 const DescribeField described[] = {
     DescribeField({"failed-bond fraction", "1", 1, "particles",
                    "Failed bonds of the particle over all it has had."}),
+    DescribeField({"diameter", "m", 1, "particles",
+                   "Edge of the cube that has the particle's present volume: "
+                   "spheres of this size touch."}),
     DescribeField({"fragment", "1", 1, "particles whose bonds may fail",
-                   "Lowest number of a particle in the piece that bonds still "
-                   "hold together."})};
+                   "Which piece of those that bonds still hold together, from "
+                   "0, the heaviest, down; of equal ones that with the lowest "
+                   "number of a particle comes first."})};
+
+/** Of every label its place among the @p pieces, which are sorted by size. */
+std::vector<double> size_ranks(const std::vector<GlobalIndex> &labels,
+                               const std::vector<Fragment> &pieces)
+{
+  std::unordered_map<GlobalIndex, std::size_t> rank;
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    rank[pieces[p].label] = p;
+  std::vector<double> ranks;
+  for (const GlobalIndex label : labels)
+    ranks.push_back(rank.at(label));
+  return ranks;
+}
 } // namespace
 
-OutputMesh SpgBody::output_mesh() const
+double SpgBody::present_volume(const std::size_t i) const
+{
+  return determinant(fields.incremental_deformation_gradient[i]) *
+         fields.kernel_reference_volume[i];
+}
+
+std::vector<Resultant> SpgBody::reactions() const
+{
+  std::vector<VelocityConstraints::Holder> kinds;
+  if (options.symmetry_faces != 0)
+    kinds.push_back(VelocityConstraints::Holder::symmetry);
+  if (options.clamped_faces != 0)
+    kinds.push_back(VelocityConstraints::Holder::clamp);
+  return constraints.reactions(nodal_state, id, kinds, communicator);
+}
+
+void SpgBody::fill_output(OutputMesh &mesh) const
 {
   const std::size_t n = nodal_state.n_owned;
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  OutputMesh mesh;
   mesh.nodes_per_cell = 1;
   std::vector<std::size_t> items(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -130,31 +172,34 @@ OutputMesh SpgBody::output_mesh() const
       mesh.points.push_back(nodal_state.position[i][d]);
     mesh.connectivity.push_back(i);
   }
-  std::vector<OutputField> &out = mesh.point_fields;
-  add_field(out, "displacement", n,
+  FieldList &at_points = mesh.point_fields, &out = mesh.cell_fields;
+  add_field(at_points, "displacement", n,
             [&](const std::size_t i, const unsigned int c) {
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out, "velocity", n,
+  add_field(at_points, "velocity", n,
             [&](const std::size_t i, const unsigned int c)
             { return nodal_state.velocity[i][c]; });
+  add_field(at_points, "diameter", n,
+            [&](const std::size_t i, const unsigned int)
+            { return std::cbrt(present_volume(i)); });
   points.add_fields(out, items);
   add_field(out, "failed-bond fraction", n,
             [&](const std::size_t i, const unsigned int)
             { return failure.failed_fraction(bonds, i); });
-  if (options.can_fail())
+  if (options.can_fail() && out.wants("fragment"))
   {
-    const std::vector<GlobalIndex> labels = views.piece_labels();
+    const std::vector<double> ranks =
+        size_ranks(views.piece_labels(), views.connected_pieces());
     add_field(out, "fragment", n,
               [&](const std::size_t i, const unsigned int)
-              { return double(labels[i]); });
+              { return ranks[i]; });
   }
   add_field(out, "body", n,
             [&](std::size_t, unsigned int) { return double(id); });
   add_field(out, "rank", n,
             [&](std::size_t, unsigned int) { return double(rank); });
-  return mesh;
 }
 
 ContactSurface SpgBody::contact_surface() const
@@ -168,10 +213,7 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 {
   FlowStressProbe probe(points.law());
   for (const std::size_t i : some_nodes)
-    points.add_to(probe, i,
-                  determinant(fields.incremental_deformation_gradient[i]) *
-                      fields.kernel_reference_volume[i] /
-                      fields.reference_volume[i]);
+    points.add_to(probe, i, present_volume(i) / fields.reference_volume[i]);
   return probe.flow_stress();
 }
 
@@ -221,6 +263,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visitor.visit_array("velocity", nodal_state.velocity);
   visitor.visit_array("force", nodal_state.force);
   visitor.visit_array("inertia", nodal_state.inertia);
+  constraints.visit_state(visitor);
   fields.visit_state(visitor);
   points.visit_state(visitor);
   approximation.visit_state(visitor);

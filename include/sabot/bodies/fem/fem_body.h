@@ -91,6 +91,11 @@ public:
   {
     return outline_of(mesh, options.symmetry_boundary_ids);
   }
+  std::vector<Resultant> reactions() const override;
+  /** Of the cells that the plane cuts: inside of all others the forces of the
+      corners add up to nothing. */
+  void add_section_force(const Vec normal, const double offset,
+                         ExactVectorSum &sum) const override;
   /** By any clamped, driven or symmetry face, the rest of the scene aside. */
   bool is_held() const override;
   const VelocityConstraints *prescribed() const override
@@ -103,9 +108,6 @@ public:
   }
   /** Center of every owned cell, and its effective plastic strain. */
   std::vector<MaterialSite> material_sites() const override;
-  /** Owned cells with all their nodes, so that borders between ranks are drawn
-      by one of them. */
-  OutputMesh output_mesh() const override;
   /** Eroded cells first: a reader must take them out before it fills arrays.
       External work is part of it. */
   void visit_state(StateVisitor &visitor) override;
@@ -147,6 +149,11 @@ public:
   {
     cells->shift_state(variable, change);
   }
+
+protected:
+  /** Owned cells with all their nodes, so that borders between ranks are drawn
+      by one of them. */
+  void fill_output(OutputMesh &mesh) const override;
 
 private:
   /** Whether the material has this state variable. Asked of the law, not of

@@ -101,8 +101,8 @@ public:
   BodyFacts facts() const override;
   /** Of the mesh, which distribute() releases. */
   Outline outline() const override { return outline_of(mesh, {}); }
+  std::vector<Resultant> reactions() const override;
   bool is_held() const override { return options.is_prescribed; }
-  OutputMesh output_mesh() const override;
   void visit_state(StateVisitor &visitor) override;
   /** All boundary faces of the mesh that are complete here; the spacing is
       the root of the mean area [m] of all, on every rank. */
@@ -124,6 +124,9 @@ public:
   double total_mass() const { return mass; }
   /** About the center, in the initial frame [kg m^2]. */
   const Mat &inertia_tensor() const { return inertia; }
+
+protected:
+  void fill_output(OutputMesh &mesh) const override;
 
 private:
   /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. Of a prescribed body the
@@ -158,7 +161,8 @@ private:
   Vec center, momentum, angular_momentum;
   std::array<double, 4> quaternion{{1., 0., 0., 0.}};
   AlignedVector<Vec> rigid_velocity; // of owned nodes, before the kick
-  ExactSum work;
+  ExactSum work;                     // of a prescribed motion [J]
+  ExactVectorSum impulse;            // of what keeps it up [N s]
 };
 } // namespace sabot
 

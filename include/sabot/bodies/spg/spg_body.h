@@ -103,6 +103,11 @@ public:
   {
     return outline_of(cloud, options.symmetry_faces);
   }
+  std::vector<Resultant> reactions() const override;
+  /** Of all particles beyond: the forces that a particle's stress makes add up
+      to nothing unless the plane passes through its neighborhood. */
+  void add_section_force(const Vec normal, const double offset,
+                         ExactVectorSum &sum) const override;
   /** By faces of symmetry or clamped ones, the rest of the scene aside. */
   bool is_held() const override;
   const VelocityConstraints *prescribed() const override
@@ -116,9 +121,6 @@ public:
   /** One per owned particle: place at the start [m], effective plastic
       strain (0 where the law has none), failed fraction of its bonds. */
   std::vector<MaterialSite> material_sites() const override;
-  /** Owned particles as vertices. Collective where bonds may fail, for the
-      labels of fragments. */
-  OutputMesh output_mesh() const override;
   /** Bonds first, since arrays over bonds follow them; where neighbors are
       searched the list itself is state. Collective. */
   void visit_state(StateVisitor &visitor) override;
@@ -177,6 +179,11 @@ public:
     return approximation.lost_direction[i];
   }
 
+protected:
+  /** Owned particles as vertices. Collective where bonds may fail, for the
+      labels of fragments. */
+  void fill_output(OutputMesh &mesh) const override;
+
 private:
   /** Number ghosts and bonds by these rows of neighbors; everything that
       belongs to them follows. Collective. A new exchange of particles,
@@ -200,6 +207,8 @@ private:
       to the body's forces is kept: the half kick that follows uses the sum,
       and the ledger counts its work. Collective. */
   void update_kernel_and_forces(const unsigned int step);
+  /** [m^3], of owned particle @p i. */
+  double present_volume(const std::size_t i) const;
   /** Forces of now, material advanced by @p dt; the body's part is kept.
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */

@@ -102,7 +102,7 @@ struct SpgParts
       body. */
   ResidualStrength &residual_strength;
   const SpgStableStep &stable_step;
-  const VelocityConstraints &constraints;
+  VelocityConstraints &constraints;
   /** Scratch of the step, and what it has found out. */
   StepWork &work;
   StepWatch &watch;

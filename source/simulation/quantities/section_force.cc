@@ -1,0 +1,78 @@
+// Quantity of interest: the force that a cross-section of a body carries.
+#include "sabot/simulation/directed_quantity.h"
+
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+/** F = -n . sum of the internal forces on all nodes beyond a plane across the
+    undeformed body, positive in tension: what is beyond pulls the rest along n.
+    By equilibrium it is (d/dt of the momentum beyond) less what acts there from
+    outside, with the other sign. */
+class SectionForce : public QuantityOfInterest
+{
+public:
+  explicit SectionForce(const QuantityRequest &request)
+      : across(DirectedQuantity::read(request, false)),
+        communicator(request.communicator)
+  {
+    const std::array<double, 3> p = get_vector(request.prm, "Point");
+    offset = dot(across.direction, vec(p[0], p[1], p[2]));
+    if (!across.body.facts().deforms)
+      throw InputError(
+          request.path + "/Body",
+          "\"" + across.body.name +
+              "\" is rigid: it has no internal forces; name a body "
+              "of cells or particles");
+    std::array<int, 3> n_planes{};
+    for (const SymmetryPlane &plane : across.body.planes_of_symmetry())
+    {
+      const double along = std::abs(across.direction[plane.axis]);
+      if (along > 0. && along < 1.)
+        throw InputError(request.path + "/Direction",
+                         "a section of a body that is cut at planes of "
+                         "symmetry must lie along or across them");
+      n_planes[plane.axis] += along == 0.;
+    }
+    // A plane that cuts the section leaves half of it; between two parallel
+    // ones the whole is without bounds.
+    for (const int n : n_planes)
+      copies *= n == 1 ? 2. : 1.;
+  }
+  double value() const override
+  {
+    ExactVectorSum force;
+    across.body.add_section_force(across.direction, offset, force);
+    ExactVectorSum::reduce({&force}, communicator);
+    const std::array<double, 3> f = force.value();
+    return -copies * dot(across.direction, vec(f[0], f[1], f[2]));
+  }
+  std::string unit() const override { return "N"; }
+
+private:
+  const DirectedQuantity across;
+  MPI_Comm communicator;
+  double offset = 0.; // of the plane along the direction [m]
+  double copies = 1.; // of the section in the whole
+};
+
+void declare(Parameters &prm)
+{
+  declare_directed_quantity(prm);
+  prm.declare_entry("Point", "0 m, 0 m, 0 m",
+                    quantities(Dimension::length, 3, 3, -1e3, 1e3),
+                    "A point of the section, in the undeformed body.");
+}
+
+const Registry<QuantityOfInterest>::Add registered(
+    {"section force",
+     "that the part of the body beyond a plane across the direction exerts on "
+     "the rest, along the direction: positive in tension. The plane follows "
+     "the metal. Of the whole where planes of symmetry cut the section.",
+     declare, [](const QuantityRequest &request) {
+       return std::make_unique<SectionForce>(request);
+     }});
+} // namespace
+} // namespace sabot
