@@ -111,7 +111,9 @@ ExitCode check_scene(const Arguments &arguments)
   return with_scene(file,
                     [&](Scene &scene)
                     {
+                      const PhysicsPlan physics = plan_physics(scene);
                       scene.distribute();
+                      add_warnings(physics, scene);
                       if (!is_first_rank())
                         return ExitCode::done;
                       for (const std::string &warning : scene.warnings)
@@ -140,9 +142,8 @@ ExitCode plan_scene(const Arguments &arguments)
                           scene, physics, calibration_seconds, MPI_COMM_WORLD);
                       if (!is_first_rank())
                         return ExitCode::done;
-                      physics.warnings.insert(physics.warnings.begin(),
-                                              scene.warnings.begin(),
-                                              scene.warnings.end());
+                      add_warnings(physics, scene);
+                      physics.warnings = scene.warnings;
                       std::cout << to_text(physics, cost) << std::flush;
                       if (!arguments.json_file.empty())
                         write_text(arguments.json_file,

@@ -20,9 +20,8 @@ double memory_limit()
       limit = std::min(limit, double(shell.rlim_cur));
   }
   // Of version 2 and of version 1; "max" is no number.
-  for (const char *const file :
-       {"/sys/fs/cgroup/memory.max",
-        "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+  for (const char *const file : {"/sys/fs/cgroup/memory.max",
+                                 "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
   {
     double group;
     if (std::ifstream(file) >> group)

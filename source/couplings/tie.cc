@@ -2,6 +2,7 @@
 #include "sabot/couplings/tie.h"
 
 #include "sabot/base/error.h"
+#include "sabot/couplings/tie_conflicts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,9 @@ Tie::Tie(const std::string &name, const std::vector<Body *> &bodies,
 void Tie::initialize()
 {
   std::vector<Constraint> constraints = find_constraints();
-  leave_to_others(constraints);
+  const TieConflicts conflicts{name,   bodies,       follower,
+                               leader, communicator, *others};
+  left_out = conflicts.leave_to_others(constraints);
   n_constraints = constraints.size();
   if (n_constraints == 0)
     throw InputError("Couplings/" + name,
@@ -42,8 +45,8 @@ void Tie::initialize()
                           : left_out + ": nothing is left to tie") +
                          ": check zone, sizes and positions");
   step_factor = keep_mass(constraints);
-  refuse_chains(constraints);
-  refuse_held(constraints);
+  conflicts.refuse_chains(constraints);
+  conflicts.refuse_held(constraints);
   prepare_motion(constraints);
   prepare_forces(constraints);
 

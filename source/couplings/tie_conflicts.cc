@@ -1,6 +1,6 @@
 // Nodes of a tie that something else moves as well.
+#include "sabot/couplings/tie_conflicts.h"
 #include "sabot/base/error.h"
-#include "sabot/couplings/tie.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ std::map<GlobalIndex, HeldNode> held_nodes(const Body &body,
 }
 } // namespace
 
-std::string Tie::place_of(const int body, const GlobalIndex node) const
+std::string TieConflicts::place_of(const int body, const GlobalIndex node) const
 {
   const NodalState &nodes = bodies[body]->nodes();
   double x[3] = {0., 0., 0.};
@@ -52,15 +52,16 @@ std::string Tie::place_of(const int body, const GlobalIndex node) const
   return text;
 }
 
-void Tie::leave_to_others(std::vector<Constraint> &constraints)
+std::string
+TieConflicts::leave_to_others(std::vector<TieConstraint> &constraints) const
 {
   std::size_t n_left = 0;
   GlobalIndex first = -1;
   std::string holder;
-  const auto is_tied = [&](const Constraint &c)
+  const auto is_tied = [&](const TieConstraint &c)
   {
-    const auto other = others->followers.find({follower, c.follower});
-    if (other == others->followers.end())
+    const auto other = others.followers.find({follower, c.follower});
+    if (other == others.followers.end())
       return false;
     if (n_left++ == 0)
     {
@@ -72,48 +73,53 @@ void Tie::leave_to_others(std::vector<Constraint> &constraints)
   constraints.erase(
       std::remove_if(constraints.begin(), constraints.end(), is_tied),
       constraints.end());
-  if (n_left > 0)
-    left_out = std::to_string(n_left) +
-               (n_left == 1 ? " node of body \"" : " nodes of body \"") +
-               bodies[follower]->name + "\" on the surface of \"" +
-               bodies[leader]->name + "\", the first at " +
-               place_of(follower, first) + ", already follow in tie \"" +
-               holder + "\" and are left to it";
-  for (const Constraint &c : constraints)
-    others->followers.emplace(TiedNodes::Node(follower, c.follower), name);
+  for (const TieConstraint &c : constraints)
+    others.followers.emplace(TiedNodes::Node(follower, c.follower), name);
+  if (n_left == 0)
+    return "";
+  return std::to_string(n_left) +
+         (n_left == 1 ? " node of body \"" : " nodes of body \"") +
+         bodies[follower]->name + "\" on the surface of \"" +
+         bodies[leader]->name + "\", the first at " +
+         place_of(follower, first) + ", already follow in tie \"" + holder +
+         "\" and are left to it";
 }
 
-void Tie::refuse_chains(const std::vector<Constraint> &constraints) const
+void TieConflicts::refuse_chains(
+    const std::vector<TieConstraint> &constraints) const
 {
   const auto refuse =
       [&](const int body, const GlobalIndex node, const std::string &other)
   {
     throw InputError("Couplings/" + name,
                      "the node of body \"" + bodies[body]->name + "\" at " +
-                         place_of(body, node) + " follows in one of the ties "
-                         "\"" + name + "\" and \"" + other +
+                         place_of(body, node) +
+                         " follows in one of the ties "
+                         "\"" +
+                         name + "\" and \"" + other +
                          "\" and leads in the other; make the body that "
                          "touches both others the leader of both ties");
   };
-  for (const Constraint &c : constraints)
+  for (const TieConstraint &c : constraints)
   {
-    const auto leads = others->leaders.find({follower, c.follower});
-    if (leads != others->leaders.end())
+    const auto leads = others.leaders.find({follower, c.follower});
+    if (leads != others.leaders.end())
       refuse(follower, c.follower, leads->second);
     for (int a = 0; a < 8; ++a)
     {
-      const auto follows = others->followers.find({leader, c.leader[a]});
-      if (c.weight[a] != 0. && follows != others->followers.end())
+      const auto follows = others.followers.find({leader, c.leader[a]});
+      if (c.weight[a] != 0. && follows != others.followers.end())
         refuse(leader, c.leader[a], follows->second);
     }
   }
-  for (const Constraint &c : constraints)
+  for (const TieConstraint &c : constraints)
     for (int a = 0; a < 8; ++a)
       if (c.weight[a] != 0.)
-        others->leaders.emplace(TiedNodes::Node(leader, c.leader[a]), name);
+        others.leaders.emplace(TiedNodes::Node(leader, c.leader[a]), name);
 }
 
-void Tie::refuse_held(const std::vector<Constraint> &constraints) const
+void TieConflicts::refuse_held(
+    const std::vector<TieConstraint> &constraints) const
 {
   const auto held = held_nodes(*bodies[follower], communicator),
              held_leaders = held_nodes(*bodies[leader], communicator);
@@ -121,7 +127,7 @@ void Tie::refuse_held(const std::vector<Constraint> &constraints) const
   std::size_t n = 0;
   GlobalIndex first = -1;
   bool of_component[3] = {false, false, false};
-  for (const Constraint &c : constraints)
+  for (const TieConstraint &c : constraints)
   {
     const auto at = held.find(c.follower);
     if (at == held.end())
@@ -154,8 +160,10 @@ void Tie::refuse_held(const std::vector<Constraint> &constraints) const
           bodies[follower]->name + "\", the first at " +
           place_of(follower, first) + ", would have to move with body \"" +
           bodies[leader]->name + "\" and to keep a prescribed velocity along " +
-          components + " (clamped, driven or symmetry faces) that the nodes of "
-          "\"" + bodies[leader]->name +
+          components +
+          " (clamped, driven or symmetry faces) that the nodes of "
+          "\"" +
+          bodies[leader]->name +
           "\" there do not have; give both bodies the same faces, or take the "
           "tied nodes out of one of the two conditions");
 }

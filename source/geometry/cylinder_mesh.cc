@@ -89,11 +89,11 @@ private:
                                 cell_size);
     double n_rings =
         zone > 0. ? count_of_intervals(0.5 * zone * radius, cell_size) : 0.;
-    n_rings += grading.growth_ratio > 1.
-                   ? count_of_growing(shell(), cell_size,
-                                      grading.coarsest_cell_size,
-                                      grading.growth_ratio)
-                   : count_of_intervals(shell(), cell_size);
+    n_rings +=
+        grading.growth_ratio > 1.
+            ? count_of_growing(shell(), cell_size, grading.coarsest_cell_size,
+                               grading.growth_ratio)
+            : count_of_intervals(shell(), cell_size);
     check_memory_for((across * across + 4. * across * n_rings) * n_layers,
                      Item::cell,
                      formatted("%.6g across the core, ", across) +

@@ -24,13 +24,12 @@ double count_of_growing(const double length, const double fine,
     return std::ceil(length / fine) + 1.;
   // Sizes fine g, fine g^2, ... up to the coarsest, then that.
   const double n_while_growing = std::log(largest / fine) / std::log(growth),
-               n_to_length = std::log1p(length / fine * (growth - 1.)) /
-                             std::log(growth);
+               n_to_length =
+                   std::log1p(length / fine * (growth - 1.)) / std::log(growth);
   if (n_to_length <= n_while_growing + 1.)
     return std::ceil(n_to_length) + 1.;
-  const double grown = fine * growth *
-                       (std::pow(growth, n_while_growing) - 1.) /
-                       (growth - 1.);
+  const double grown =
+      fine * growth * (std::pow(growth, n_while_growing) - 1.) / (growth - 1.);
   return std::ceil(n_while_growing) +
          std::ceil(std::max(0., length - grown) / largest) + 1.;
 }

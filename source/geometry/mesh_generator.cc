@@ -134,10 +134,10 @@ Planes planes_of(const BoxSpecification &box)
   check_memory_for(n, Item::cell);
   Planes planes;
   for (unsigned int d = 0; d < 3; ++d)
-    planes[d] = graded_planes(ranges[d].low, ranges[d].high,
-                              ranges[d].inner_low, ranges[d].inner_high,
-                              box.cell_size, box.coarsest_cell_size,
-                              box.growth_ratio);
+    planes[d] =
+        graded_planes(ranges[d].low, ranges[d].high, ranges[d].inner_low,
+                      ranges[d].inner_high, box.cell_size,
+                      box.coarsest_cell_size, box.growth_ratio);
   return planes;
 }
 

@@ -52,8 +52,7 @@ std::vector<Side> sides_of(const HexMesh &mesh)
       sides.push_back(side);
     }
     for (int f = 0; f < 6; ++f)
-      sides[6 * c + f].height =
-          2. * mesh.volume[c] / (area[f] + area[f ^ 1]);
+      sides[6 * c + f].height = 2. * mesh.volume[c] / (area[f] + area[f ^ 1]);
   }
   return sides;
 }
@@ -64,8 +63,9 @@ ThinLayer find_thin_layer(const HexMesh &mesh)
   constexpr double largest_ratio = 4.;
   std::vector<Side> sides = sides_of(mesh);
   std::sort(sides.begin(), sides.end(),
-            [](const Side &a, const Side &b)
-            { return a.nodes != b.nodes ? a.nodes < b.nodes : a.cell < b.cell; });
+            [](const Side &a, const Side &b) {
+              return a.nodes != b.nodes ? a.nodes < b.nodes : a.cell < b.cell;
+            });
   ThinLayer layer;
   std::vector<char> is_thin(mesh.cells.size(), 0);
   double worst = largest_ratio;
@@ -97,13 +97,13 @@ ThinLayer find_thin_layer(const HexMesh &mesh)
 std::string ThinLayer::text() const
 {
   char line[300];
-  std::snprintf(line, sizeof(line),
-                "%zu cell%s much thinner than the next, the worst %.3g mm "
-                "beside %.3g mm at (%.6g, %.6g, %.6g) mm: such a layer shortens "
-                "the step; let sizes and zones end where cells do",
-                n_cells, n_cells == 1 ? " is" : "s are", 1e3 * height,
-                1e3 * neighbor, 1e3 * place[0], 1e3 * place[1],
-                1e3 * place[2]);
+  std::snprintf(
+      line, sizeof(line),
+      "%zu cell%s much thinner than the next, the worst %.3g mm "
+      "beside %.3g mm at (%.6g, %.6g, %.6g) mm: such a layer shortens "
+      "the step; let sizes and zones end where cells do",
+      n_cells, n_cells == 1 ? " is" : "s are", 1e3 * height, 1e3 * neighbor,
+      1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
   return line;
 }
 } // namespace sabot

@@ -299,7 +299,8 @@ bool bounds_meet(const Outline &a, const Outline &b, const Vec direction,
         return false;
       continue;
     }
-    const double one = room_low / direction[d], other = room_high / direction[d];
+    const double one = room_low / direction[d],
+                 other = room_high / direction[d];
     from = std::max(from, std::min(one, other));
     to = std::min(to, std::max(one, other));
   }
@@ -361,8 +362,8 @@ std::optional<double> way_to_meeting(const Outline &a, const Outline &b,
   const double slack = 1e-3 * std::min(a.spacing(), b.spacing());
   if (!bounds_meet(a, b, direction, longest, slack))
     return std::nullopt;
-  const double way = std::min(way_of(a, b, direction, slack),
-                              way_of(b, a, -direction, slack));
+  const double way =
+      std::min(way_of(a, b, direction, slack), way_of(b, a, -direction, slack));
   return way <= longest ? std::optional<double>(std::max(0., way))
                         : std::nullopt;
 }
@@ -378,9 +379,11 @@ bool may_come_near(const Outline &a, const Outline &b, const Vec direction,
   const Shadow of_b(b, direction, false, margin),
       of_a(a, -direction, false, margin);
   constexpr double any = -2.;
-  look_from_faces(a, direction, any, [&](const Vec x)
+  look_from_faces(a, direction, any,
+                  [&](const Vec x)
                   { near = near || of_b.is_near(x, longest); });
-  look_from_faces(b, direction, any, [&](const Vec x)
+  look_from_faces(b, direction, any,
+                  [&](const Vec x)
                   { near = near || of_a.is_near(x, longest); });
   return near;
 }

@@ -14,16 +14,17 @@ namespace sabot
 {
 namespace
 {
-/** The quadrilaterals of the six faces of a lattice of @p n intervals. @p order:
-    the lattice point, x fastest, that each particle stands on. */
+/** The quadrilaterals of the six faces of a lattice of @p n intervals. @p
+   order: the lattice point, x fastest, that each particle stands on. */
 void add_skin(const std::array<unsigned int, 3> &n,
               const std::vector<std::size_t> &order, ParticleCloud &cloud)
 {
   std::vector<std::size_t> particle(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     particle[order[i]] = i;
-  const auto at = [&](const std::array<unsigned int, 3> &p)
-  { return particle[p[0] + (n[0] + 1) * (p[1] + std::size_t(n[1] + 1) * p[2])]; };
+  const auto at = [&](const std::array<unsigned int, 3> &p) {
+    return particle[p[0] + (n[0] + 1) * (p[1] + std::size_t(n[1] + 1) * p[2])];
+  };
   for (unsigned int id = 0; id < 6; ++id)
   {
     // Across d; b follows c on the lower side, where outwards is downwards.

@@ -170,8 +170,7 @@ std::array<int, 2> divisions(const double relative_size,
 {
   const double n = 2. * count_of_intervals(0.38, relative_size),
                m = count_of_intervals(0.5, relative_size);
-  const double ball = n * n * (n + 6. * m),
-               disc = n * n + 4. * n * m;
+  const double ball = n * n * (n + 6. * m), disc = n * n + 4. * n * m;
   check_memory_for(n_levels ? 0.5 * ball + *n_levels * disc : ball, Item::cell,
                    formatted("%.6g across the core, ", n) +
                        formatted("%.6g shells", m));

@@ -69,8 +69,9 @@ void judge_elastic(const ElasticConstants &elastic, Critic &critic)
 {
   // From foams to osmium; from soft gels to diamond.
   if (elastic.density < 20.)
-    critic.say("Density", "is that of a gas; a number alone is in kg/m^3 (steel "
-                          "has 7830 kg/m^3)");
+    critic.say("Density",
+               "is that of a gas; a number alone is in kg/m^3 (steel "
+               "has 7830 kg/m^3)");
   if (elastic.density > 23000.)
     critic.say("Density", "is above that of any metal (osmium has 22590 "
                           "kg/m^3)");
@@ -102,9 +103,8 @@ void judge_strength(const Parameters &prm, const ElasticConstants &elastic,
   if (const auto yield = material.initial_yield_stress())
   {
     const double ratio = *yield / E;
-    const std::string relation =
-        formatted("%.3g Pa, ", *yield) +
-        formatted("%.2g times Young's modulus", ratio);
+    const std::string relation = formatted("%.3g Pa, ", *yield) +
+                                 formatted("%.2g times Young's modulus", ratio);
     const std::string entry = yield_entry(prm);
     const std::string where = entry.empty() ? path : path + "/" + entry;
     if (ratio > 0. && ratio < 1e-5)
@@ -159,14 +159,14 @@ void judge_temperatures(Critic &critic)
              start = critic.value("Initial temperature"),
              melt = critic.value("Melt temperature");
   if (room && *room < 150.)
-    critic.say(reference,
-               "is read as kelvin; 20 degrees Celsius are 293.15 K" +
-                   (start && melt && *melt > *room && *start > *room
-                        ? "; at the initial temperature the metal would be " +
-                              formatted("%.0f %% on its way to melting",
-                                        100. * (*start - *room) /
-                                            (*melt - *room))
-                        : std::string()));
+    critic.say(
+        reference,
+        "is read as kelvin; 20 degrees Celsius are 293.15 K" +
+            (start && melt && *melt > *room && *start > *room
+                 ? "; at the initial temperature the metal would be " +
+                       formatted("%.0f %% on its way to melting",
+                                 100. * (*start - *room) / (*melt - *room))
+                 : std::string()));
   if (start && *start < 60.)
     critic.say("Initial temperature",
                "is read as kelvin; 20 degrees Celsius are 293.15 K");

@@ -53,7 +53,8 @@ void add_fields(const std::vector<OutputField> &fields,
 std::string body_file(const std::string &body, const unsigned int frame)
 {
   std::ostringstream stream;
-  stream << file_name_of(body) << "_" << std::setw(6) << std::setfill('0') << frame;
+  stream << file_name_of(body) << "_" << std::setw(6) << std::setfill('0')
+         << frame;
   return stream.str();
 }
 

@@ -123,9 +123,8 @@ auto BodyAssembly::counted(const std::string &path, const Make &make) const
   }
   catch (const TooManyItems &e)
   {
-    throw InputError(path + (prm.is_declared("Nodal spacing")
-                                 ? "/Nodal spacing"
-                                 : "/Cell size"),
+    throw InputError(path + (prm.is_declared("Nodal spacing") ? "/Nodal spacing"
+                                                              : "/Cell size"),
                      e.what());
   }
 }

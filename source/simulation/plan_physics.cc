@@ -214,6 +214,14 @@ PhysicsPlan plan_physics(const Scene &scene)
   return plan;
 }
 
+void add_warnings(const PhysicsPlan &plan, Scene &scene)
+{
+  for (const std::string &warning : plan.warnings)
+    if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) ==
+        scene.warnings.end())
+      scene.warnings.push_back(warning);
+}
+
 nlohmann::ordered_json to_json(const PhysicsPlan &physics, const CostPlan &cost)
 {
   using nlohmann::ordered_json;

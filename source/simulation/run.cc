@@ -137,13 +137,14 @@ void Run::start(const std::string &checkpoint)
   const bool resumed = !checkpoint.empty();
   open_folder(resumed);
   report.describe_program(n_ranks);
-  const std::vector<std::string> doubts = plan_physics(scene).warnings;
+  const PhysicsPlan physics = plan_physics(scene);
   {
     const auto timer = timers.scope("set-up");
     scene.distribute();
     stepper.initialize();
   }
-  report.describe_scene(doubts);
+  add_warnings(physics, scene);
+  report.describe_scene();
   if (resumed)
     restore(checkpoint);
   else

@@ -34,7 +34,7 @@ void RunReport::describe_program(const int n_ranks) const
   log.line("  compiled by " + build_text());
 }
 
-void RunReport::describe_scene(const std::vector<std::string> &doubts) const
+void RunReport::describe_scene() const
 {
   for (const auto &body : scene.bodies)
     log.line("  body " + body->name + ": " + std::to_string(body->n_items()) +
@@ -43,10 +43,6 @@ void RunReport::describe_scene(const std::vector<std::string> &doubts) const
     log.line("  " + note);
   for (const std::string &warning : scene.warnings)
     log.warning(warning);
-  for (const std::string &doubt : doubts)
-    if (std::find(scene.warnings.begin(), scene.warnings.end(), doubt) ==
-        scene.warnings.end())
-      log.warning(doubt);
   for (const auto &coupling : scene.couplings)
     for (const Measure &m : coupling->measure())
     {

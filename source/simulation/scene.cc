@@ -30,11 +30,11 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
                   assembly.warnings.end());
   for (const auto &body : bodies)
     is_free = is_free && !body->is_held();
-  const std::vector<Outline> outlines = outlines_of(*this);
+  const std::vector<Outline> outlines = take_outlines(*this);
   check_overlaps(*this, outlines);
   build_loads();
   const auto tied = build_couplings();
-  warn_of_doubts(file, outlines, tied);
+  warn_of_doubts(file, outlines, tied, *this);
   build_outputs();
   build_quantities();
 }
@@ -135,7 +135,8 @@ std::set<std::pair<int, int>> Scene::build_couplings()
   for (const auto &coupling : couplings)
     if (!names.insert(coupling->name).second)
       throw InputError("List of couplings",
-                       "\"" + coupling->name + "\" is also what a part of "
+                       "\"" + coupling->name +
+                           "\" is also what a part of "
                            "another coupling is called in the results; rename "
                            "it");
   warn_of_lone_debris();

@@ -13,11 +13,12 @@ void append(std::vector<std::string> &all, const std::vector<std::string> &some)
 }
 } // namespace
 
-void Scene::warn_of_doubts(const ParameterFile &file,
-                           const std::vector<Outline> &outlines,
-                           const std::set<std::pair<int, int>> &tied)
+void warn_of_doubts(const ParameterFile &file,
+                    const std::vector<Outline> &outlines, const BodyPairs &tied,
+                    Scene &scene)
 {
-  const std::vector<std::string> listed = names_of("couplings");
+  const std::vector<std::string> listed =
+      split_names(file.value("List of couplings", ""));
   const auto type = [&](const std::string &name)
   { return file.value("Couplings/" + name + "/Type", "contact"); };
   std::vector<std::string> unlisted, contacts, self_contacts;
@@ -31,12 +32,12 @@ void Scene::warn_of_doubts(const ParameterFile &file,
     }
     else if (type(name) == "contact")
       unlisted.push_back(name);
-  const MotionDoubts motion(*this, outlines, tied);
-  append(warnings, motion.missing_contacts(unlisted));
-  append(warnings, motion.idle_contacts(contacts));
-  append(warnings, motion.idle_self_contacts(self_contacts));
-  append(warnings, motion.forgotten_planes());
-  append(warnings, motion.zones_left_behind());
-  append(warnings, doubtful_end_time(*this));
+  const MotionDoubts motion(scene, outlines, tied);
+  append(scene.warnings, motion.missing_contacts(unlisted));
+  append(scene.warnings, motion.idle_contacts(contacts));
+  append(scene.warnings, motion.idle_self_contacts(self_contacts));
+  append(scene.warnings, motion.forgotten_planes());
+  append(scene.warnings, motion.zones_left_behind());
+  append(scene.warnings, doubtful_end_time(scene));
 }
 } // namespace sabot

@@ -1,4 +1,5 @@
-// Who meets whom by the velocities at the start, and whether the couplings know.
+// Who meets whom by the velocities at the start, and whether the couplings
+// know.
 #include "sabot/simulation/scene_checks.h"
 
 #include <algorithm>
@@ -68,9 +69,9 @@ std::vector<MotionDoubts::Flight> MotionDoubts::flights(const int a,
     for (const Vec of_b : velocities(facts[b]))
     {
       const double speed = norm(of_a - of_b);
-      flights.push_back({speed > 0. ? (1. / speed) * (of_a - of_b)
-                                    : vec(1., 0., 0.),
-                         speed, speed * scene.settings.end_time});
+      flights.push_back(
+          {speed > 0. ? (1. / speed) * (of_a - of_b) : vec(1., 0., 0.), speed,
+           speed * scene.settings.end_time});
     }
   return flights;
 }
@@ -83,10 +84,11 @@ std::optional<double> MotionDoubts::time_to_meeting(const int a,
   {
     if (!(flight.speed > 0.))
       continue;
-    const auto way = way_to_meeting(outlines[a], outlines[b], flight.direction,
-                                    flight.way);
+    const auto way =
+        way_to_meeting(outlines[a], outlines[b], flight.direction, flight.way);
     if (way)
-      first = std::min(first.value_or(*way / flight.speed), *way / flight.speed);
+      first =
+          std::min(first.value_or(*way / flight.speed), *way / flight.speed);
   }
   return first;
 }
@@ -147,8 +149,8 @@ std::vector<char> MotionDoubts::find_disturbed() const
   return disturbed;
 }
 
-std::vector<std::string> MotionDoubts::missing_contacts(
-    const std::vector<std::string> &unlisted) const
+std::vector<std::string>
+MotionDoubts::missing_contacts(const std::vector<std::string> &unlisted) const
 {
   std::vector<std::string> warnings;
   for (int a = 0; a < int(facts.size()); ++a)
@@ -156,7 +158,8 @@ std::vector<std::string> MotionDoubts::missing_contacts(
     {
       if (is_joined(a, b) || held_apart.count({a, b}) > 0)
         continue;
-      const double size = std::min(outlines[a].spacing(), outlines[b].spacing());
+      const double size =
+          std::min(outlines[a].spacing(), outlines[b].spacing());
       const auto time = time_to_meeting(a, b);
       const bool touches = touch(outlines[a], outlines[b], 1e-3 * size);
       if (!time && !touches)
@@ -184,8 +187,8 @@ std::string MotionDoubts::why_not(const int a, const int b) const
   const Flight flight = flights(a, b).front();
   if (!(flight.speed > 0.))
     return pair + " rest with each other";
-  if (const auto way = way_to_meeting(outlines[a], outlines[b],
-                                      flight.direction, anywhere))
+  if (const auto way =
+          way_to_meeting(outlines[a], outlines[b], flight.direction, anywhere))
     return pair + " would meet after " + in_us(*way / flight.speed);
   if (way_to_meeting(outlines[a], outlines[b], -flight.direction, anywhere))
     return pair + " fly apart: check the sign of the velocity";
@@ -206,8 +209,8 @@ MotionDoubts::idle_contacts(const std::vector<std::string> &names) const
       if (a != b && is_joined(a, b))
         continue;
       // Alone with itself a body folds, or breaks.
-      may_act = may_act || a == b || disturbed[a] || disturbed[b] ||
-                may_meet(a, b);
+      may_act =
+          may_act || a == b || disturbed[a] || disturbed[b] || may_meet(a, b);
       if (may_act)
         break;
       if (reasons.size() < 300)
@@ -249,9 +252,9 @@ std::vector<std::string> doubtful_end_time(const Scene &scene)
   {
     const BodyFacts facts = body->facts();
     if (facts.deforms)
-      step = std::min(step, *std::min_element(facts.spacing.begin(),
-                                              facts.spacing.end()) /
-                                facts.material->sound_speed());
+      step = std::min(
+          step, *std::min_element(facts.spacing.begin(), facts.spacing.end()) /
+                    facts.material->sound_speed());
   }
   const double n = scene.settings.end_time / step;
   constexpr double most = 1e7;

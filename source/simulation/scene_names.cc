@@ -8,7 +8,8 @@ namespace sabot
 {
 void check_names(const Parameters &prm)
 {
-  for (const std::string list : {"bodies", "loads", "couplings", "outputs", "quantities"})
+  for (const std::string list :
+       {"bodies", "loads", "couplings", "outputs", "quantities"})
   {
     std::set<std::string> known;
     for (const std::string &name : split_names(prm.get("List of " + list)))

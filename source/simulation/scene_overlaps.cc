@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace sabot
 {
@@ -28,11 +29,11 @@ bool is_zone_of(const Scene &scene, const int a, const int b)
 }
 } // namespace
 
-std::vector<Outline> outlines_of(const Scene &scene)
+std::vector<Outline> take_outlines(const Scene &scene)
 {
   std::vector<Outline> outlines;
   for (const auto &body : scene.bodies)
-    outlines.push_back(body->outline());
+    outlines.push_back(std::exchange(body->outline, Outline()));
   return outlines;
 }
 

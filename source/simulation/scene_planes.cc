@@ -76,10 +76,10 @@ std::vector<std::string> MotionDoubts::forgotten_planes() const
                     2. * plane.coordinate
                 ? 1.
                 : -1.;
-        const double one = side * (outlines[b].low[plane.axis] -
-                                   plane.coordinate),
-                     two = side * (outlines[b].high[plane.axis] -
-                                   plane.coordinate);
+        const double one = side *
+                           (outlines[b].low[plane.axis] - plane.coordinate),
+                     two = side *
+                           (outlines[b].high[plane.axis] - plane.coordinate);
         const double low = std::min(one, two), high = std::max(one, two);
         if (low > tolerance)
           continue;
@@ -95,8 +95,7 @@ std::vector<std::string> MotionDoubts::forgotten_planes() const
                    "one side"
                  : "a rigid body cannot be cut; guide it with a prescribed "
                    "motion, or model all bodies whole");
-        if (std::find(warnings.begin(), warnings.end(), text) ==
-            warnings.end())
+        if (std::find(warnings.begin(), warnings.end(), text) == warnings.end())
           warnings.push_back(text);
       }
   return warnings;
@@ -107,8 +106,8 @@ std::vector<std::string> MotionDoubts::zones_left_behind() const
   std::vector<std::string> warnings;
   for (const CarvedZone &zone : scene.zones)
     if (facts[zone.zone].velocity != facts[zone.host].velocity)
-      warnings.push_back("body \"" + name(zone.zone) +
-                         "\" is carved from \"" + name(zone.host) +
+      warnings.push_back("body \"" + name(zone.zone) + "\" is carved from \"" +
+                         name(zone.host) +
                          "\" but starts with another velocity; give both the "
                          "same initial velocity");
   return warnings;

@@ -169,8 +169,8 @@ void check_quantity(const std::string &entry, const std::string &scene,
 void check_measured(const std::string &entry, const StudyQuantity &quantity,
                     const ParameterFile &scene)
 {
-  const std::string type = scene.value(
-                        "Quantities/" + quantity.name + "/Type", "velocity"),
+  const std::string type = scene.value("Quantities/" + quantity.name + "/Type",
+                                       "velocity"),
                     unit = unit_of_quantity(type);
   if (quantity.measured_text.empty() || unit.empty() ||
       is_told_in(quantity.measured_text, unit))

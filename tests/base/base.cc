@@ -89,14 +89,13 @@ TEST(Text, is_trimmed_split_and_joined)
 
 TEST(Text, knows_utf8)
 {
-  for (const std::string text : {"", "plain", "Pr\u00fcfk\u00f6rper", "\u2212",
-                                 "\U0001F600"})
+  for (const std::string text :
+       {"", "plain", "Pr\u00fcfk\u00f6rper", "\u2212", "\U0001F600"})
     EXPECT_FALSE(first_not_utf8(text)) << text;
   // Latin-1, a lone continuation, cut off, overlong, a surrogate, too large.
   EXPECT_EQ(*first_not_utf8("Pr\xfc"), 2u);
-  for (const std::string text :
-       {"\x80", "\xe2\x88", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80",
-        "\xf4\x90\x80\x80", "\xff"})
+  for (const std::string text : {"\x80", "\xe2\x88", "\xc0\xaf", "\xe0\x80\xaf",
+                                 "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"})
     EXPECT_EQ(first_not_utf8(text).value_or(9), 0u);
   EXPECT_EQ(replaced("a--b-", "-", "+-"), "a+-+-b+-");
 }
@@ -167,8 +166,7 @@ TEST_F(Files, entries_are_declared_in_their_subsection)
   const EnteredSubsection entered(prm, "Bodies", "plate");
   EXPECT_TRUE(prm.is_declared("Kind"));
   EXPECT_FALSE(prm.is_declared("Title"));
-  EXPECT_EQ(prm.entry_names(),
-            (std::vector<std::string>{"Cell size", "Kind"}));
+  EXPECT_EQ(prm.entry_names(), (std::vector<std::string>{"Cell size", "Kind"}));
 }
 
 #define EXPECT_CONTAINS(text, part)                                            \

@@ -1,8 +1,8 @@
 // Shapes before the run: overlaps, meetings, slivers, and counts of cells.
+#include "sabot/geometry/outline.h"
 #include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/mesh_layers.h"
-#include "sabot/geometry/outline.h"
 #include "sabot/geometry/particle_cloud.h"
 #include "sabot/geometry/round_bodies.h"
 
@@ -63,8 +63,8 @@ TEST(Outline, chords_of_round_bodies_and_edges_of_boxes)
 {
   EXPECT_EQ(cube(0.).chord_error(), 0.);
   // Twice the sagitta of an arc of 1/n of the circle, a few times finer.
-  const Outline rod = outline_of(make_cylinder(1., 1., 2, {{0., 0., 0.}}, 0.2),
-                                 {});
+  const Outline rod =
+      outline_of(make_cylinder(1., 1., 2, {{0., 0., 0.}}, 0.2), {});
   const double sagitta = 0.2 * 0.2 / 8.;
   EXPECT_GT(rod.chord_error(), sagitta);
   EXPECT_LT(rod.chord_error(), 8. * sagitta);
@@ -78,12 +78,12 @@ TEST(Outline, overlaps_by_the_deepest_point)
   EXPECT_NEAR(overlap.depth, 0.1, 1e-12);
   EXPECT_NEAR(overlap.place[0], 0.95, 0.06);
   // Boxes around them overlap, they do not; and one within the other.
-  EXPECT_EQ(deepest_overlap(ball(5., {{0., 0., 0.}}), ball(5., {{6., 6., 6.}}))
-                .depth,
-            0.);
-  EXPECT_NEAR(deepest_overlap(ball(5., {{0., 0., 0.}}), ball(1., {{1., 0., 0.}}))
-                  .depth,
-              4.8, 0.3);
+  EXPECT_EQ(
+      deepest_overlap(ball(5., {{0., 0., 0.}}), ball(5., {{6., 6., 6.}})).depth,
+      0.);
+  EXPECT_NEAR(
+      deepest_overlap(ball(5., {{0., 0., 0.}}), ball(1., {{1., 0., 0.}})).depth,
+      4.8, 0.3);
 }
 
 TEST(Outline, meets_where_faces_are_in_the_way)
@@ -103,7 +103,8 @@ TEST(Outline, meets_where_faces_are_in_the_way)
   ASSERT_TRUE(slanted);
   EXPECT_NEAR(*slanted, 3. * std::sqrt(2.), 1e-9);
   // A small body in the middle of a large face.
-  const Outline grain = outline_of(box({{.1, .1, .1}}, {{-3., .2, .3}}, .1), {});
+  const Outline grain =
+      outline_of(box({{.1, .1, .1}}, {{-3., .2, .3}}, .1), {});
   EXPECT_NEAR(*way_to_meeting(grain, cube(0.), x, 10.), 1.95, 1e-9);
   EXPECT_NEAR(*way_to_meeting(cube(0.), grain, -x, 10.), 1.95, 1e-9);
   // Planes of symmetry are no obstacles.
@@ -144,9 +145,8 @@ TEST(Layers, of_slivers_are_found_and_graded_meshes_pass)
   EXPECT_NEAR(layer.neighbor, 0.98, 1e-12);
   EXPECT_NEAR(std::abs(layer.place[2]), 4.95, 1e-9);
   EXPECT_GT(layer.n_cells, 10u);
-  for (const HexMesh &mesh :
-       {make_sphere(5., {{0., 0., 0.}}, 0.5),
-        make_cylinder(5., 10., 2, {{0., 0., 0.}}, 0.7)})
+  for (const HexMesh &mesh : {make_sphere(5., {{0., 0., 0.}}, 0.5),
+                              make_cylinder(5., 10., 2, {{0., 0., 0.}}, 0.7)})
     EXPECT_EQ(find_thin_layer(mesh).n_cells, 0u);
 }
 
@@ -156,8 +156,7 @@ TEST(Counts, of_grown_cells_are_those_that_are_made)
     for (const double growth : {1., 1.05, 1.3, 3.})
       for (const double coarsest : {1., 2.5, unbounded})
       {
-        const double made =
-            growing_sizes(length, 1., coarsest, growth).size();
+        const double made = growing_sizes(length, 1., coarsest, growth).size();
         const double n = count_of_growing(length, 1., coarsest, growth);
         EXPECT_GE(n, made) << length << " " << growth << " " << coarsest;
         EXPECT_LE(n, made + 3.) << length << " " << growth << " " << coarsest;

@@ -87,7 +87,7 @@ private:
   std::vector<Entry> entries;                // in order, each path once
   std::map<std::string, std::size_t> number; // path -> entries
   std::vector<std::pair<std::string, std::string>> sections; // path, origin
-  std::set<std::pair<std::string, std::string>> included; // section, file
+  std::set<std::pair<std::string, std::string>> included;    // section, file
   std::set<std::string> renamed; // old names that were met
   std::vector<std::string> said; // about them
 };

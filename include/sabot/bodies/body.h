@@ -271,9 +271,6 @@ public:
   /** What is known of it before the run; before distribute() where it is asked
       for its mesh. */
   virtual BodyFacts facts() const = 0;
-  /** Its true shape at the start, before distribute(); without faces where it
-      has none to show. */
-  virtual Outline outline() const { return Outline(); }
   /** What holds or drives its nodes from outside, by kind: "clamped faces",
       "symmetry faces", "driven faces", "prescribed motion" of the whole body.
       Collective. */
@@ -291,7 +288,10 @@ public:
   virtual bool is_held() const = 0;
   /** Which velocities of owned nodes are prescribed, after distribute(); null:
       none ever is. */
-  virtual const VelocityConstraints *prescribed() const { return nullptr; }
+  const VelocityConstraints *prescribed() const
+  {
+    return prescribed_velocities;
+  }
   /** Where the model of the body is cut, the same on every rank. */
   virtual std::vector<SymmetryPlane> planes_of_symmetry() const { return {}; }
 
@@ -304,11 +304,16 @@ public:
   virtual GlobalIndex n_items() const = 0;
   virtual std::string step_timer_name() const = 0;
 
+  /** Its true shape at the start, from the constructor on; whoever checks the
+      scene takes it away. Without faces where there are none to show. */
+  Outline outline;
+
 protected:
   /** The mesh and those fields that its lists want. Collective. */
   virtual void fill_output(OutputMesh &mesh) const = 0;
 
   NodalState nodal_state;
+  const VelocityConstraints *prescribed_velocities = nullptr;
 };
 } // namespace sabot
 

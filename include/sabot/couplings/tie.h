@@ -11,6 +11,19 @@
 
 namespace sabot
 {
+/** A follower and its leaders, by global numbers of their bodies; sum of the
+    weights 1. Sent between ranks as it is in memory. */
+struct TieConstraint
+{
+  GlobalIndex follower;
+  double mass; // of the follower [kg]
+  std::array<GlobalIndex, 8> leader;
+  std::array<double, 8> weight; // zero where a leader takes no part
+  /** On the face, to fall back on. */
+  std::array<GlobalIndex, 4> face;
+  std::array<double, 4> face_weight;
+};
+
 /** The nodes that the ties of a scene hold already, by body and global number,
     and by which tie; the same on every rank. */
 struct TiedNodes
@@ -61,18 +74,7 @@ public:
   StableStep stable_step() const override;
 
 private:
-  /** A follower and its leaders, by global numbers of their bodies; sum of the
-      weights 1. Sent between ranks as it is in memory. */
-  struct Constraint
-  {
-    GlobalIndex follower;
-    double mass; // of the follower [kg]
-    std::array<GlobalIndex, 8> leader;
-    std::array<double, 8> weight; // zero where a leader takes no part
-    /** On the face, to fall back on. */
-    std::array<GlobalIndex, 4> face;
-    std::array<double, 4> face_weight;
-  };
+  using Constraint = TieConstraint;
   /** One term of a sum: a slot of the halo and its weight. */
   struct Term
   {
@@ -84,15 +86,6 @@ private:
       configuration; by follower, the same on every rank. Collective. */
   std::vector<Constraint> find_constraints() const;
   static void use_face(Constraint &constraint);
-  /** Takes out the nodes that another tie moves. */
-  void leave_to_others(std::vector<Constraint> &constraints);
-  /** InputError for nodes that follow in one tie and lead in another one. */
-  void refuse_chains(const std::vector<Constraint> &constraints) const;
-  /** InputError for followers with velocities prescribed that their leaders do
-      not have. Collective. */
-  void refuse_held(const std::vector<Constraint> &constraints) const;
-  /** "(1, 2, 3) mm" of a node at the start, for messages. Collective. */
-  std::string place_of(const int body, const GlobalIndex node) const;
   /** Puts all followers on the faces where leaders would lose too much mass.
       @return factor of the stable step. Collective. */
   double keep_mass(std::vector<Constraint> &constraints) const;

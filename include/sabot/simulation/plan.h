@@ -84,6 +84,10 @@ struct PhysicsPlan
   std::vector<std::string> warnings; // where the scene's switches disagree
 };
 
+/** Adds what the plan warns of to what the scene has of its own, each once:
+    check, plan and run say the same. */
+void add_warnings(const PhysicsPlan &plan, Scene &scene);
+
 /**
  * What a run would cost.
  * From a short calibration on this machine, as busy as it is: memory is the

@@ -37,9 +37,9 @@ public:
   /** Version and revision, title, date, machine, ranks, command, compiler and
       instruction set. */
   void describe_program(const int n_ranks) const;
-  /** Sizes of bodies, notes, warnings with the plan's @p doubts, tied nodes,
+  /** Sizes of bodies, notes, warnings, tied nodes,
       and how far nodes start inside of what they touch. Collective. */
-  void describe_scene(const std::vector<std::string> &doubts) const;
+  void describe_scene() const;
   /** The live line, and at each percent of the end time or minute of wall time
       a line of the record with the energies of the last row. */
   void progress(const RunProgress &now);

@@ -139,10 +139,6 @@ private:
    * @return follower and leader of ties
    */
   std::set<std::pair<int, int>> build_couplings();
-  /** By scene_checks.h. */
-  void warn_of_doubts(const ParameterFile &file,
-                      const std::vector<Outline> &outlines,
-                      const std::set<std::pair<int, int>> &tied);
   /** Of bodies that can fail and are in no self-contact. */
   void warn_of_lone_debris();
   void build_outputs();

@@ -21,8 +21,8 @@ namespace sabot
  */
 void check_names(const Parameters &prm);
 
-/** The outlines of all bodies, by number. */
-std::vector<Outline> outlines_of(const Scene &scene);
+/** The outlines of all bodies, by number, which lose them. */
+std::vector<Outline> take_outlines(const Scene &scene);
 
 /**
  * Refuse bodies that overlap, but for zones and their hosts.
@@ -101,6 +101,12 @@ private:
 /** An end time that takes 1e7 steps and more, by the finest spacing over the
     speed of sound: a unit is missing. */
 std::vector<std::string> doubtful_end_time(const Scene &scene);
+
+/** Adds to the warnings of the scene what all of these say. @p file: which
+    contacts it describes, listed or not. */
+void warn_of_doubts(const ParameterFile &file,
+                    const std::vector<Outline> &outlines, const BodyPairs &tied,
+                    Scene &scene);
 } // namespace sabot
 
 #endif

@@ -35,10 +35,9 @@ void refuse_contradictions(const std::string &body_name, const HexMesh &mesh,
   {
     bool contradicts = false;
     for (int d = 0; d < 3; ++d)
-      contradicts =
-          contradicts ||
-          (is_driven[a] && held[a] >> d & 1 && options.driven_components[d] &&
-           options.driven_velocity[d] != 0.);
+      contradicts = contradicts || (is_driven[a] && held[a] >> d & 1 &&
+                                    options.driven_components[d] &&
+                                    options.driven_velocity[d] != 0.);
     if (contradicts && n++ == 0)
       first = a;
   }

@@ -18,6 +18,8 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                 .make(name, options, this->material)),
       boundary(name, this->mesh, options)
 {
+  outline = outline_of(this->mesh, options.symmetry_boundary_ids);
+  prescribed_velocities = &constraints;
   for (const ErosionLimit &limit : options.erosion_limits())
     if (!has_state(limit.variable))
       throw InputError("Bodies/" + name + "/" + limit.entry,

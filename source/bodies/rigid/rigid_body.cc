@@ -64,6 +64,7 @@ RigidBody::RigidBody(const std::string &name, const int id, HexMesh m,
     : Body(name, id), mesh(std::move(m)), material(std::move(material)),
       options(options), n_global_cells(mesh.cells.size())
 {
+  outline = outline_of(mesh, {});
   node_masses.assign(mesh.nodes.size(), 0.);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const GlobalIndex a : mesh.cells[c])

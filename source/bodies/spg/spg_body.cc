@@ -36,6 +36,8 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                                                             watch},
       views(parts, surface, communicator)
 {
+  outline = outline_of(this->cloud, options.symmetry_faces);
+  prescribed_velocities = &constraints;
   options.failure_criterion->check(points, "Bodies/" + name);
   if (options.conducts_heat && !(points.law().conductivity() > 0.))
     throw InputError("Bodies/" + name + "/Heat conduction",

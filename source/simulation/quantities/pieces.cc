@@ -75,7 +75,9 @@ private:
   const DirectedQuantity direction;
 };
 
-const UnitOfQuantity units[] = {UnitOfQuantity("plug mass", "kg"), UnitOfQuantity("plug velocity", "m/s"), UnitOfQuantity("largest piece velocity", "m/s")};
+const UnitOfQuantity units[] = {
+    UnitOfQuantity("plug mass", "kg"), UnitOfQuantity("plug velocity", "m/s"),
+    UnitOfQuantity("largest piece velocity", "m/s")};
 
 const Registry<QuantityOfInterest>::Add
     mass({"plug mass",

@@ -86,11 +86,6 @@ public:
       every number of ranks. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
-  /** Of the mesh, which distribute() releases. */
-  Outline outline() const override
-  {
-    return outline_of(mesh, options.symmetry_boundary_ids);
-  }
   std::vector<Resultant> reactions() const override;
   /** Of the cells that the plane cuts: inside of all others the forces of the
       corners add up to nothing. */
@@ -98,10 +93,6 @@ public:
                          ExactVectorSum &sum) const override;
   /** By any clamped, driven or symmetry face, the rest of the scene aside. */
   bool is_held() const override;
-  const VelocityConstraints *prescribed() const override
-  {
-    return &constraints;
-  }
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
     return boundary.planes();

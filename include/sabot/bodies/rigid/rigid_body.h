@@ -99,8 +99,6 @@ public:
       frame. Collective. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
-  /** Of the mesh, which distribute() releases. */
-  Outline outline() const override { return outline_of(mesh, {}); }
   std::vector<Resultant> reactions() const override;
   bool is_held() const override { return options.is_prescribed; }
   void visit_state(StateVisitor &visitor) override;

@@ -98,11 +98,6 @@ public:
       lost a direction; isolated: those without a bond. Collective. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
-  /** Of the cloud, which distribute() releases. */
-  Outline outline() const override
-  {
-    return outline_of(cloud, options.symmetry_faces);
-  }
   std::vector<Resultant> reactions() const override;
   /** Of all particles beyond: the forces that a particle's stress makes add up
       to nothing unless the plane passes through its neighborhood. */
@@ -110,10 +105,6 @@ public:
                          ExactVectorSum &sum) const override;
   /** By faces of symmetry or clamped ones, the rest of the scene aside. */
   bool is_held() const override;
-  const VelocityConstraints *prescribed() const override
-  {
-    return &constraints;
-  }
   std::vector<SymmetryPlane> planes_of_symmetry() const override
   {
     return surface.planes();
