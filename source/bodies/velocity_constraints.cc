@@ -95,4 +95,20 @@ void VelocityConstraints::accumulate_work(const NodalState &nodes,
     if (norm_square(h.value) > 0. && !nodes.is_follower(h.node))
       done.add(-half_dt * dot(nodes.force[h.node], h.value));
 }
+
+void VelocityConstraints::add_kick_energy(const NodalState &nodes,
+                                          const double dt, ExactSum &sum) const
+{
+  auto next = held.begin();
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    const bool is_held = next != held.end() && next->node == i;
+    if (!nodes.is_follower(i))
+    {
+      const Vec f = is_held ? next->free * nodes.force[i] : nodes.force[i];
+      sum.add(dt * dt / (8. * nodes.inertia[i]) * norm_square(f));
+    }
+    next += is_held;
+  }
+}
 } // namespace sabot

@@ -58,14 +58,13 @@ void HaloForces::accumulate_work(const NodeHalo &halo, const double half_dt)
     }
 }
 
-std::vector<Resultant>
-HaloForces::resultants(const std::string &source,
-                       const std::vector<std::pair<int, int>> &pairs,
-                       const NodeHalo &halo, MPI_Comm communicator) const
+std::vector<Resultant> HaloForces::resultants(
+    const std::string &source, const std::vector<std::pair<int, int>> &pairs,
+    const NodeHalo &halo, MPI_Comm communicator, const bool with_own) const
 {
   std::set<int> bodies;
   for (const auto &[a, b] : pairs)
-    if (a != b)
+    if (a != b || with_own)
       bodies.insert({a, b});
   std::vector<ExactVectorSum> force(bodies.size()), total(bodies.size());
   std::vector<ExactVectorSum *> sums;

@@ -2,6 +2,7 @@
 #include "sabot/couplings/self_contact.h"
 
 #include "sabot/couplings/contact_search.h"
+#include "sabot/couplings/mirror_images.h"
 #include "sabot/kernels/point_buckets.h"
 
 #include <algorithm>
@@ -16,63 +17,6 @@ namespace
  */
 constexpr double core_distance = 0.5;
 
-struct Loose
-{
-  NodeKey key;
-  std::size_t local; // on its owner
-  bool is_continuous;
-  Vec x;
-};
-
-/** The loose particles of the bodies that take part, and who meets whom. */
-struct Debris
-{
-  std::vector<DebrisView> views; // of bodies
-  std::vector<char> meet;        // two bodies, a row each
-  std::vector<Loose> mine, all;
-  double largest_spacing = 0.; // [m]
-
-  bool may_meet(const NodeKey &a, const NodeKey &b) const
-  {
-    return meet[a.body * views.size() + b.body];
-  }
-};
-
-/** Collective. */
-Debris gather_debris(const std::vector<Body *> &bodies,
-                     const std::vector<std::pair<int, int>> &body_pairs,
-                     MPI_Comm communicator)
-{
-  const std::size_t n_bodies = bodies.size();
-  Debris debris;
-  debris.views.resize(n_bodies);
-  debris.meet.assign(n_bodies * n_bodies, 0);
-  std::vector<char> used(n_bodies, 0);
-  for (const auto &[a, b] : body_pairs)
-  {
-    debris.meet[a * n_bodies + b] = debris.meet[b * n_bodies + a] = 1;
-    used[a] = used[b] = 1;
-  }
-  for (std::size_t b = 0; b < n_bodies; ++b)
-  {
-    if (!used[b])
-      continue;
-    const DebrisView &view = debris.views[b] = bodies[b]->particles()->debris();
-    debris.largest_spacing = std::max(debris.largest_spacing, view.spacing);
-    const NodalState &nodes = bodies[b]->nodes();
-    for (std::size_t k = 0; k < view.nodes.size(); ++k)
-    {
-      const std::size_t i = view.nodes[k];
-      debris.mine.push_back(
-          {{std::int32_t(b), 0, nodes.global_id[i]},
-           i,
-           !view.is_continuous.empty() && view.is_continuous[k],
-           nodes.position[i]});
-    }
-  }
-  debris.all = gather_all(debris.mine, communicator);
-  return debris;
-}
 } // namespace
 
 SelfContact::SelfContact(const std::string &name,
@@ -81,7 +25,7 @@ SelfContact::SelfContact(const std::string &name,
                          const SelfContactOptions &options,
                          MPI_Comm communicator)
     : Coupling(name), bodies(bodies), body_pairs(pairs), options(options),
-      communicator(communicator)
+      communicator(communicator), images(bodies)
 {
 }
 
@@ -104,14 +48,32 @@ void SelfContact::initialize()
 
 void SelfContact::update_search(const unsigned int, const double dt)
 {
-  traveled += largest_closing_speed(bodies, body_pairs, communicator) * dt;
+  double speed = largest_closing_speed(bodies, body_pairs, communicator);
+  if (images.any())
+    speed = std::max(speed, speed_towards_images());
+  traveled += speed * dt;
   // Newly failed particles are met at the next search; those that come close
   // by then were bonded until the last kernel update.
   if (traveled > skin)
     search();
 }
 
+double SelfContact::speed_towards_images() const
+{
+  double largest = 0.;
+  for (const auto &[a, b] : body_pairs)
+    for (const int body : {a, b})
+    {
+      const NodalState &nodes = bodies[body]->nodes();
+      for (std::size_t i = 0; i < nodes.n_owned; ++i)
+        largest = std::max(largest, norm_square(nodes.velocity[i]));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return 2. * std::sqrt(largest);
+}
+
 SelfContact::Pair SelfContact::make_pair(const NodeKey &a, const NodeKey &b,
+                                         const std::uint64_t image,
                                          const double distance,
                                          const double reach,
                                          const DebrisView &of_a,
@@ -121,6 +83,7 @@ SelfContact::Pair SelfContact::make_pair(const NodeKey &a, const NodeKey &b,
   Pair pair{};
   pair.first = std::min(a, b);
   pair.second = std::max(a, b);
+  pair.image = image;
   pair.largest_distance = reach * h;
   pair.distance = std::min(pair.largest_distance, distance);
   pair.stiffness = options.stiffness_scale * h *
@@ -134,49 +97,58 @@ void SelfContact::find_pairs()
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  const Debris debris = gather_debris(bodies, body_pairs, communicator);
-  const std::vector<Loose> &all = debris.all;
+  const Debris debris = Debris::gather(bodies, body_pairs, communicator);
+  const std::vector<LooseParticle> &all = debris.all;
   n_loose = all.size();
   const double reach = options.contact_distance * debris.largest_spacing + skin;
+  const std::vector<DebrisImages::Item> items = images.with_images(all, reach);
   PointBuckets buckets(reach);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    buckets.add(all[i].x, i);
+  for (std::size_t k = 0; k < items.size(); ++k)
+    buckets.add(items[k].x, k);
   std::vector<Pair> found;
-  for (const Loose &from : debris.mine)
+  for (const LooseParticle &from : debris.mine)
   {
     const NodeKey &a = from.key;
+    const std::uint64_t images_of_a = images.near(a.body, from.x, reach);
     buckets.for_near(
         from.x,
-        [&](const std::size_t j)
+        [&](const std::size_t k)
         {
-          const NodeKey &b = all[j].key;
-          const double distance = norm(all[j].x - from.x);
-          if (a == b || distance > reach || !debris.may_meet(a, b))
+          const DebrisImages::Item &other = items[k];
+          const LooseParticle &to = all[other.number];
+          const NodeKey &b = to.key;
+          const double distance = norm(other.x - from.x);
+          if (distance > reach || !debris.may_meet(a, b) ||
+              (a == b && other.image == 0) || (other.image & ~images_of_a))
             return;
           // A pair owned here twice is kept once.
           if (b < a && bodies[b.body]->node_owner[b.node] == rank)
             return;
-          if (a.body == b.body &&
+          if (a.body == b.body && other.image == 0 &&
               bodies[a.body]->particles()->are_bonded(from.local, b.node))
             return;
           // Where their continuum bears the pressure, they only must not pass
           // through each other where it is loose.
           const double core =
-              a.body == b.body && from.is_continuous && all[j].is_continuous
+              a.body == b.body && from.is_continuous && to.is_continuous
                   ? core_distance
                   : options.contact_distance;
-          found.push_back(make_pair(a, b, distance, core, debris.views[a.body],
+          found.push_back(make_pair(a, b, other.image, distance, core,
+                                    debris.views[a.body],
                                     debris.views[b.body]));
         });
   }
   const auto before = [](const Pair &p, const Pair &q)
-  { return p.first == q.first ? p.second < q.second : p.first < q.first; };
+  {
+    return !(p.first == q.first)     ? p.first < q.first
+           : !(p.second == q.second) ? p.second < q.second
+                                     : p.image < q.image;
+  };
   std::sort(found.begin(), found.end(), before);
   for (Pair &pair : found)
   {
     const auto old = std::lower_bound(pairs.begin(), pairs.end(), pair, before);
-    if (old != pairs.end() && old->first == pair.first &&
-        old->second == pair.second)
+    if (old != pairs.end() && !before(pair, *old))
       pair.distance = std::min(old->distance, pair.largest_distance);
   }
   pairs = std::move(found);
@@ -221,10 +193,14 @@ void SelfContact::soften(const double dt)
   // particles owned here is complete.
   std::fill(softening.begin(), softening.end(), 0.);
   for (const Pair &pair : pairs)
-    if (norm_square(halo.position[pair.slot[1]] - halo.position[pair.slot[0]]) <
+    if (norm_square(images.mirrored(pair.image, halo.position[pair.slot[1]]) -
+                    halo.position[pair.slot[0]]) <
         pair.distance * pair.distance)
-      for (const std::size_t s : pair.slot)
-        softening[s] += pair.stiffness;
+    {
+      softening[pair.slot[0]] += pair.stiffness;
+      if (pair.slot[1] != pair.slot[0])
+        softening[pair.slot[1]] += pair.stiffness;
+    }
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
     softening[s] =
         std::min(1., 0.5 * options.stability_fraction * halo.inertia[s] /
@@ -244,14 +220,18 @@ void SelfContact::add_forces(const double dt)
   {
     const Pair &pair = pairs[number];
     const std::size_t a = pair.slot[0], b = pair.slot[1];
-    const Vec offset = halo.position[b] - halo.position[a];
+    Vec offset =
+        images.mirrored(pair.image, halo.position[b]) - halo.position[a];
+    if (a == b)
+      offset = images.to_own_image(pair.image, offset);
     const double distance = norm(offset);
     if (distance >= pair.distance || distance == 0.)
       continue;
     ContactPoint on_b;
     on_b.item = number;
     on_b.normal = (1. / distance) * offset;
-    on_b.velocity = halo.velocity[b] - halo.velocity[a];
+    on_b.velocity = flipped(halo.velocity[b], images.turned_axes(pair.image)) -
+                    halo.velocity[a];
     on_b.depth = pair.distance - distance;
     on_b.stiffness = pair.stiffness * std::min(softening[a], softening[b]);
     on_b.reduced_mass = 1. / (1. / halo.inertia[a] + 1. / halo.inertia[b]);
@@ -267,14 +247,17 @@ void SelfContact::add_forces(const double dt)
 
 void SelfContact::push(const ContactPoint &on_second)
 {
-  const std::size_t a = pairs[on_second.item].slot[0],
-                    b = pairs[on_second.item].slot[1];
+  const Pair &pair = pairs[on_second.item];
+  const std::size_t a = pair.slot[0], b = pair.slot[1];
   const Vec normal = on_second.pressing * on_second.normal,
             friction = -on_second.drag * on_second.sliding;
   forces.normal[a] -= normal;
-  forces.normal[b] += normal;
   forces.friction[a] -= friction;
-  forces.friction[b] += friction;
+  if (pair.first == pair.second)
+    return; // the other is no node of the model
+  const unsigned int turned = images.turned_axes(pair.image);
+  forces.normal[b] += flipped(normal, turned);
+  forces.friction[b] += flipped(friction, turned);
 }
 
 void SelfContact::accumulate_work(const double half_dt)

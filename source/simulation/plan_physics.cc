@@ -173,6 +173,17 @@ void judge_zones_before(const Scene &scene, PhysicsPlan &plan)
   }
 }
 
+void judge_hourglass_control(PhysicsPlan &plan)
+{
+  for (const PlannedBody &body : plan.bodies)
+    if (body.facts.hourglass_control == "viscous" && !body.yield_stress)
+      plan.warnings.push_back(
+          "body \"" + body.name +
+          "\" never yields, but its hourglass control is viscous, which takes "
+          "energy from what should spring back; use \"stiffness\" or "
+          "\"B-bar\"");
+}
+
 void judge_symmetry(PhysicsPlan &plan)
 {
   if (!plan.impact.exists)
@@ -210,6 +221,7 @@ PhysicsPlan plan_physics(const Scene &scene)
   if (plan.impact.exists)
     judge_impact(scene, plan);
   judge_zones_before(scene, plan);
+  judge_hourglass_control(plan);
   judge_symmetry(plan);
   return plan;
 }

@@ -4,6 +4,7 @@
 #include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/plan.h"
+#include "sabot/simulation/run_quality.h"
 #include "sabot/simulation/run_result.h"
 
 #include <nlohmann/json.hpp>
@@ -58,7 +59,7 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
       stepper(scene.bodies, scene.loads, scene.couplings,
               step_limits(scene.settings), timers, communicator),
       balance(scene, communicator), forces(scene), report(scene, balance, log),
-      files(folder, communicator),
+      control_shares(scene.bodies.size()), files(folder, communicator),
       checkpoints(folder + "/checkpoint", communicator),
       schedule(scene.settings, communicator)
 {
@@ -213,7 +214,10 @@ void Run::loop()
                      limiter, earlier_seconds + seconds_since_start(),
                      seconds_since_start()});
     if (recorded)
+    {
       balance.check(scene.settings.energy_limit, limiter);
+      check_rigid_penetration(scene);
+    }
     // The cut last step is no place to go on from.
     if (!stepper.is_finished() &&
         schedule.is_due(stepper.steps(), stepper.time(), seconds_since_start()))
@@ -237,6 +241,7 @@ void Run::record()
   for (const auto &body : scene.bodies)
   {
     Measures row = {{"time", "s", stepper.time()}};
+    control_shares.look(body->id, measures[body->id]);
     const Measures columns = measures[body->id].columns();
     row.insert(row.end(), columns.begin(), columns.end());
     files.history.append(body->name, row);
@@ -275,7 +280,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
       stepper.steps(), stepper.time(), earlier_seconds + seconds_since_start(),
       smallest_step};
   const nlohmann::ordered_json result =
-      make_result(scene, summary, balance, forces, timers, zones, communicator);
+      make_result(scene, summary, balance, forces, control_shares, timers,
+                  zones, communicator);
   std::string problem;
   if (rank == 0)
     try
@@ -298,6 +304,7 @@ void Run::write_result(const std::string &status, const std::string &reason)
                 status.c_str(), summary.steps, summary.time,
                 summary.wall_seconds, balance.largest_residual());
   log.line(text);
+  describe_quality(scene, control_shares, balance.energy_scale(), log);
   for (const ZoneVerdict &zone : zones)
     log.line("  " + describe(zone));
   if (status == "failed" && !scene.quantities.empty())

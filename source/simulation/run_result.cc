@@ -104,7 +104,7 @@ void add_resultants(const std::vector<Resultant> &resultants,
                                    {"impulse", vector(r.impulse)}});
 }
 
-ordered_json body_results(const Scene &scene)
+ordered_json body_results(const Scene &scene, const ControlShares &shares)
 {
   ordered_json bodies = ordered_json::object();
   for (const auto &body : scene.bodies)
@@ -122,6 +122,8 @@ ordered_json body_results(const Scene &scene)
         continue;
       b[json_key(m.name)] = number(m.value);
     }
+    if (!measures.control.empty())
+      b[measures.control + "_over_internal"] = number(shares.share(body->id));
     b["bonds_broken_fraction"] = number(measures.bonds_broken_fraction);
     b["eroded_mass"] = number(measures.eroded_mass);
     add_fragments(*body, b);
@@ -197,7 +199,7 @@ void add_resources(ordered_json &r, MPI_Comm communicator)
 
 ordered_json make_result(const Scene &scene, const RunSummary &summary,
                          const EnergyBalance &balance, const ForceBook &forces,
-                         const Timers &timers,
+                         const ControlShares &shares, const Timers &timers,
                          const std::vector<ZoneVerdict> &zones,
                          MPI_Comm communicator)
 {
@@ -218,7 +220,7 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
                            : forces.largest_momentum_residual());
   r["stable_step_min"] =
       summary.steps > 0 ? number(summary.smallest_step) : ordered_json(nullptr);
-  r["bodies"] = body_results(scene);
+  r["bodies"] = body_results(scene, shares);
   r["quantities"] = ordered_json::object();
   // A state that went wrong has numbers, but they answer nothing.
   const bool is_valid = summary.status != "failed";

@@ -1,7 +1,9 @@
 // A scene from its file: loops over what its lists name.
 #include "sabot/simulation/scene.h"
 
+#include "sabot/couplings/closing_limit.h"
 #include "sabot/couplings/coupling_builder.h"
+#include "sabot/couplings/symmetry_walls.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/simulation/body_assembly.h"
 #include "sabot/simulation/scene_checks.h"
@@ -49,6 +51,12 @@ void Scene::read_settings()
   settings.title = prm.get("Title");
   settings.end_time = get_quantity(prm, "End time");
   settings.step_factor = get_quantity(prm, "Step factor");
+  if (settings.step_factor > 1.)
+    warnings.push_back("the step factor " + prm.get("Step factor") +
+                       " is above 1: steps are longer than the estimate of "
+                       "what is stable, and what goes wrong may go unnoticed, "
+                       "since the energy balance only sees what is not "
+                       "accounted for; results are not to be trusted");
   settings.largest_step = get_quantity(prm, "Largest step");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
   settings.checkpoint_interval = get_quantity(prm, "Checkpoint interval");
@@ -129,6 +137,13 @@ std::set<std::pair<int, int>> Scene::build_couplings()
          item.builder->build(prm, "Couplings/" + item.name, item.name, context))
       list.push_back(std::move(coupling));
   }
+  auto planes = std::make_unique<SymmetryWalls>(body_pointers(), communicator);
+  if (planes->any())
+    couplings.push_back(std::move(planes));
+  auto closing =
+      std::make_unique<ClosingLimit>(body_pointers(), couplings, communicator);
+  if (closing->any())
+    couplings.push_back(std::move(closing));
   std::move(last.begin(), last.end(), std::back_inserter(couplings));
 
   std::set<std::string> names;

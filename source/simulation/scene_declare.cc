@@ -20,7 +20,8 @@ void declare_top(Parameters &prm)
                     "Physical time at which the run ends.");
   prm.declare_knob("Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
                    "Step over the least stable step of bodies and "
-                   "couplings; above 1 the run is expected to be caught.");
+                   "couplings; above 1, which a warning says, a run may go "
+                   "wrong without being caught.");
   prm.declare_knob("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
                    "Upper bound of the step.");
   prm.declare_entry("Energy residual limit", "0.05",

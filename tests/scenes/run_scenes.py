@@ -141,6 +141,109 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
+    def test_planes_of_symmetry_hold_everything(self):
+        scene = os.path.join(SOURCE, "tests/scenes/planes.prm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("planes%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        # All of the block is loose, and the others came back.
+        self.assertGreater(r["couplings"]["debris"]["loose_particles"], 200)
+        self.assertGreater(r["bodies"]["ball"]["velocity"][0], 50.)
+        self.assertGreater(r["bodies"]["cube"]["velocity"][0], 5.)
+        for name in glob.glob(os.path.join(WORK, "planes1", "fields", "*.vtu")):
+            body = os.path.basename(name).split("_")[0]
+            planes = (0,) if body == "cube" else (0, 1)
+            for x in read_vtu(name)["Points"]:
+                for d in planes:
+                    self.assertGreater(x[d], -0.02e-3, name)
+        self.assertLess(r["energy_residual_max"], 0.005)
+        parted = folder("planes-parts")
+        every = int(0.6 * r["steps"])
+        done = sabot("run", scene, "-o", parted, "--quiet", "--set",
+                     "Checkpoint interval in steps=%d" % every, ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        os.remove(os.path.join(parted, "history.h5"))
+        done = sabot("resume", parted, "--quiet", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        with open(os.path.join(parted, "history.h5"), "rb") as file:
+            self.assertEqual(histories[0], file.read())
+
+    def test_rigid_bodies_limit_the_step(self):
+        scene = os.path.join(SOURCE, "tests/scenes/rigid-pair.prm")
+        for speed in (1., 200., 3000.):
+            end = 3e-3 / speed
+            out = folder("rigid-pair")
+            done = sabot("run", scene, "-o", out, "--set", "End time=%g s" % end,
+                         "--set", "Outputs/averages/Interval=%g s" % (0.1 * end),
+                         "--set", "Bodies/one/Initial velocity="
+                         "0 m/s, 0 m/s, -%g m/s" % speed)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            bodies = result(out)["bodies"]
+            self.assertAlmostEqual(bodies["two"]["velocity"][2] / -speed, 1.,
+                                   delta=0.02)
+            self.assertAlmostEqual(bodies["one"]["velocity"][2] / -speed, 0.,
+                                   delta=0.02)
+        # What cannot be held apart is refused, with what it closes in.
+        done = sabot("run", scene, "-o", folder("rigid-pair"), "--set",
+                     "End time=0.2 us", "--set", "Bodies/one/Initial velocity="
+                     "0 m/s, 0 m/s, -30000 m/s")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("spacings a step", done.stdout)
+
+    def test_an_elastic_ball_rebounds(self):
+        scene = os.path.join(SOURCE, "tests/scenes/ball-on-wall.prm")
+        for size in ("2.5 mm", "1.25 mm", "0.9 mm"):
+            out = folder("ball-on-wall")
+            done = sabot("run", scene, "-o", out, "--set",
+                         "Bodies/ball/Cell size=" + size)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            ball = result(out)["bodies"]["ball"]
+            self.assertGreater(ball["velocity"][2], 19.5)
+            self.assertLess(ball["velocity"][2], 20.)
+        # Viscous control takes more than half of it, and that is said.
+        done = sabot("run", scene, "-o", out, "--set",
+                     "Bodies/ball/Hourglass control=viscous")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        ball = result(out)["bodies"]["ball"]
+        self.assertLess(ball["velocity"][2], 11.)
+        self.assertGreater(ball["hourglass_over_internal"], 1.)
+        self.assertIn('warning: hourglass energy of body "ball" is',
+                      done.stdout)
+        done = sabot("plan", scene, "--set",
+                     "Bodies/ball/Hourglass control=viscous")
+        self.assertIn('"ball" never yields, but its hourglass control is '
+                      "viscous", done.stdout)
+        done = sabot("plan", scene)
+        self.assertNotIn("never yields, but its hourglass", done.stdout)
+
+    def test_a_bar_is_driven_from_rest(self):
+        scene = os.path.join(SOURCE, "tests/scenes/pulled.prm")
+        out = folder("pulled")
+        done = sabot("run", scene, "-o", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        r = result(out)
+        self.assertLess(r["energy_residual_max"], 1e-3)
+        # F = rho c v A behind the front: the momentum is F t/2 at most, F t
+        # where the clamp has not felt it.
+        c = math.sqrt(206e9 / 7830.)
+        momentum = r["bodies"]["bar"]["mass"] * r["bodies"]["bar"]["velocity"][2]
+        self.assertAlmostEqual(momentum / (7830. * c * 5. * 16e-6 * 5e-6), 1.,
+                               delta=0.03)
+        # Nothing moves.
+        done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                     "Bodies/bar/Prescribed velocity=0 m/s, 0 m/s, 0 m/s")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertLess(result(out)["energy_residual_max"], 1e-9)
+        done = sabot("check", scene, "--set", "Step factor=1.2")
+        self.assertIn("warning: the step factor 1.2 is above 1", done.stdout)
+
     def test_erosion_is_the_same_on_1_2_and_3_ranks(self):
         scene = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")
         histories = []

@@ -34,11 +34,16 @@ double find_measure(const Measures &measures, const std::string &name);
  */
 struct BodyMeasures
 {
-  double mass = 0.;                        // [kg]
-  std::array<double, 3> velocity{};        // of the center of mass [m/s]
-  double kinetic_energy = 0.;              // [J]
-  std::array<double, 3> low{}, high{};     // bounds of the nodes [m]
-  double internal_energy = 0.;             // [J]
+  double mass = 0.;                    // [kg]
+  std::array<double, 3> velocity{};    // of the center of mass [m/s]
+  double kinetic_energy = 0.;          // [J]
+  std::array<double, 3> low{}, high{}; // bounds of the nodes [m]
+  double internal_energy = 0.;         // [J]
+  /** What holds the discretization where it has no strain of its own:
+      "hourglass" control of cells, "stabilization" of particles; empty where
+      nothing does. Its energy [J] is also a column of own. */
+  std::string control;
+  double control_energy = 0.;
   double eroded_mass = 0.;                 // [kg]
   std::array<double, 3> eroded_momentum{}; // [kg m/s]
   double bonds_broken_fraction = 0.;       // of all bonds of the start

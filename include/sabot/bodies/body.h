@@ -19,6 +19,8 @@
 
 namespace sabot
 {
+class VelocityConstraints;
+
 /** A proposal for the stable step and who makes it. The default proposes
     nothing: the largest double. item is a global number, for the log and for
     messages of a step that has become too short. */
@@ -225,6 +227,12 @@ public:
       @return whether it may have, the same on all ranks. */
   virtual bool update_topology(const unsigned int step, const double time) = 0;
 
+  /** Kinetic energy of the last half kick by itself, sum of m |dt f/(2 m)|^2/2
+      over owned nodes that it moves [J]. What stands in the ledger is v at
+      whole steps, and works along v at half steps: their difference is this
+      energy, which comes and goes with the forces. Zero of bodies that do not
+      move node by node. Local. */
+  void add_kick_energy(const double dt, ExactSum &sum) const;
   /** Add this rank's share. [J], owned nodes and items only, so that the sum
       over ranks counts each once. Local. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;
@@ -313,6 +321,8 @@ protected:
   virtual void fill_output(OutputMesh &mesh) const = 0;
 
   NodalState nodal_state;
+  /** Of a body whose nodes move by their own forces: which of their components
+      do not. */
   const VelocityConstraints *prescribed_velocities = nullptr;
 };
 } // namespace sabot

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 namespace sabot
 {
@@ -31,6 +32,8 @@ struct BodyFacts
   /** Distance of nodes that was asked for along the axes; the finest where it
       varies [m]. */
   std::array<double, 3> spacing{};
+  /** Form of hourglass control, of one-point cells only. */
+  std::string hourglass_control;
   bool may_fail = false; // by a criterion, whichever
   /** Effective plastic strain at which it fails, by damage that in shear;
       nothing where another measure decides, or where nothing fails. */

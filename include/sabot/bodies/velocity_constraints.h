@@ -63,6 +63,11 @@ public:
                                    MPI_Comm communicator) const;
   /** Impulses so far. */
   void visit_state(StateVisitor &visitor);
+  /** Energy of half a kick by the present forces alone, of owned nodes and
+      free components: sum of m |dt f/(2 m)|^2/2 [J], see
+      Body::add_kick_energy(). */
+  void add_kick_energy(const NodalState &nodes, const double dt,
+                       ExactSum &sum) const;
   /** Work done on the owned nodes so far [J]. */
   const ExactSum &work() const { return done; }
   ExactSum &work() { return done; }

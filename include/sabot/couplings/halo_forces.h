@@ -42,12 +42,14 @@ public:
   /** Appends "contact energy" and "friction energy" [J]. Collective, the same
       on all ranks. */
   void add_measures(Measures &measures, MPI_Comm communicator) const;
-  /** What acts on each body of @p pairs that is not met by itself alone; named
+  /** What acts on each body of @p pairs that is not met by itself alone, and
+      @p with_own on that, too: where it meets its mirror images; named
       @p source. Collective. */
   std::vector<Resultant>
   resultants(const std::string &source,
              const std::vector<std::pair<int, int>> &pairs,
-             const NodeHalo &halo, MPI_Comm communicator) const;
+             const NodeHalo &halo, MPI_Comm communicator,
+             const bool with_own = false) const;
   /** After resize(): forces are part of the state, for half of their work along
       the next step is still to be counted. */
   void visit_state(StateVisitor &visitor);

@@ -4,6 +4,7 @@
 #include "sabot/couplings/contact_options.h"
 #include "sabot/couplings/contact_points.h"
 #include "sabot/couplings/coupling.h"
+#include "sabot/couplings/debris.h"
 #include "sabot/couplings/halo_forces.h"
 
 namespace sabot
@@ -29,6 +30,12 @@ struct SelfContactOptions : ContactOptions
  * without room to the sides. The stiffness S_a = sum k of all pairs that touch
  * particle a moves it with a frequency below (2 S_a/m_a)^(1/2) (Gershgorin),
  * so k is scaled down to keep 2 S_a dt^2/m_a below the stability fraction.
+ *
+ * Where planes of symmetry cut the model, debris also meets the mirror images
+ * of all debris in them, its own included. Of a pair (a, image of b) the force
+ * on b is the image of that on the image, which (b, image of a) gives as well:
+ * such pairs are counted once. What lies on a plane is its own image, and so is
+ * its pair with anything else.
  */
 class SelfContact : public Coupling
 {
@@ -53,7 +60,8 @@ public:
   Measures measure() const override;
   std::vector<Resultant> resultants() const override
   {
-    return forces.resultants(name, body_pairs, halo, communicator);
+    return forces.resultants(name, body_pairs, halo, communicator,
+                             images.any());
   }
   void visit_state(StateVisitor &visitor) override;
 
@@ -61,7 +69,8 @@ private:
   /** Part of checkpoints, so plain numbers; slots follow from the keys. */
   struct Pair
   {
-    NodeKey first, second;   // first < second
+    NodeKey first, second;   // first < second; equal: with its own image
+    std::uint64_t image;     // of the second, see DebrisImages
     double distance;         // below which they repel [m]
     double largest_distance; // that it may be [m]
     double stiffness;        // [N/m]
@@ -76,9 +85,13 @@ private:
       Collective. */
   void find_pairs();
   /** @p reach: largest distance of repulsion over the spacing. */
-  Pair make_pair(const NodeKey &a, const NodeKey &b, const double distance,
-                 const double reach, const DebrisView &of_a,
-                 const DebrisView &of_b) const;
+  Pair make_pair(const NodeKey &a, const NodeKey &b, const std::uint64_t image,
+                 const double distance, const double reach,
+                 const DebrisView &of_a, const DebrisView &of_b) const;
+  /** Largest speed at which a particle and the image of another may close in
+      [m/s]: twice that across a plane, which flying along with the scene does
+      not make less. Collective. */
+  double speed_towards_images() const;
   /** Slots of the nodes of all pairs. Collective. */
   void build_halo();
   /** Scale the stiffness of all that touches a particle below its bound.
@@ -91,6 +104,7 @@ private:
   const std::vector<std::pair<int, int>> body_pairs;
   const SelfContactOptions options;
   MPI_Comm communicator;
+  const DebrisImages images;
   std::vector<Pair> pairs; // sorted by keys
   NodeHalo halo;
   std::vector<double> softening; // per slot, of the stiffness

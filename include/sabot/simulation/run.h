@@ -7,6 +7,7 @@
 #include "sabot/output/run_files.h"
 #include "sabot/simulation/balance.h"
 #include "sabot/simulation/checkpoint_schedule.h"
+#include "sabot/simulation/control_shares.h"
 #include "sabot/simulation/force_book.h"
 #include "sabot/simulation/run_report.h"
 #include "sabot/simulation/scene.h"
@@ -123,6 +124,7 @@ private:
   EnergyBalance balance;
   ForceBook forces;
   RunReport report;
+  ControlShares control_shares;
   RunFiles files;
   CheckpointFolder checkpoints;
   CheckpointSchedule schedule;

@@ -3,6 +3,7 @@
 
 #include "sabot/base/timers.h"
 #include "sabot/simulation/balance.h"
+#include "sabot/simulation/control_shares.h"
 #include "sabot/simulation/force_book.h"
 #include "sabot/simulation/zone_verdict.h"
 
@@ -46,8 +47,8 @@ struct RunSummary
 nlohmann::ordered_json
 make_result(const Scene &scene, const RunSummary &summary,
             const EnergyBalance &balance, const ForceBook &forces,
-            const Timers &timers, const std::vector<ZoneVerdict> &zones,
-            MPI_Comm communicator);
+            const ControlShares &shares, const Timers &timers,
+            const std::vector<ZoneVerdict> &zones, MPI_Comm communicator);
 } // namespace sabot
 
 #endif

@@ -201,6 +201,9 @@ BodyMeasures FemBody::measure() const
   BodyMeasures measures =
       measure_nodes(nodal_state, communicator, free_nodes());
   measures.internal_energy = internal.value();
+  if (!cells->hourglass_control().empty())
+    measures.control = "hourglass";
+  measures.control_energy = hourglass.value();
   measures.own.push_back({"hourglass energy", "J", hourglass.value()});
   measures.own.push_back({"plastic strain max", "1", top[0]});
   // Not from the array, which a rank without cells does not have.
@@ -229,6 +232,7 @@ BodyFacts FemBody::facts() const
   facts.moves_by_itself =
       facts.driven_velocity.has_value() || (flies && facts.is_clamped);
   facts.spacing.fill(options.cell_size);
+  facts.hourglass_control = cells->hourglass_control();
   return facts;
 }
 

@@ -21,7 +21,7 @@ void FemOptions::declare_parameters(Parameters &prm)
 {
   Registry<Hexahedra>::declare_knob(prm, "Integration", "one point",
                                     "Points of a cell.");
-  Registry<OnePoint>::declare_knob(prm, "Hourglass control", "viscous",
+  Registry<OnePoint>::declare_knob(prm, "Hourglass control", hourglass_by_law,
                                    "Of cells with one point.");
   prm.declare_knob("Hourglass coefficient", "0.1",
                    quantity(Dimension::none, 0., 1.), "Usually 0.03 to 0.15.");

@@ -52,6 +52,8 @@ BodyMeasures SpgBody::measure() const
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   BodyMeasures measures = measure_nodes(nodal_state, communicator);
   measures.internal_energy = internal.value();
+  measures.control = "stabilization";
+  measures.control_energy = stabilized.value();
   measures.own.push_back({"stabilization energy", "J", stabilized.value()});
   measures.own.push_back({"plastic work", "J", plastic.value()});
   if (options.can_fail())

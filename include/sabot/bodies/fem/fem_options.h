@@ -23,6 +23,9 @@ struct ErosionLimit
   double value;
 };
 
+/** The choice of hourglass control that leaves it to the material's law. */
+constexpr const char *hourglass_by_law = "automatic";
+
 /**
  * What a scene says about a body of finite elements, beside shape, material and
  * names. SI units. Boundary ids are those of the body's mesh.
@@ -30,8 +33,8 @@ struct ErosionLimit
 struct FemOptions
 {
   // Names of choices; the body's constructor looks them up.
-  std::string integration = "one point"; // of Registry<Hexahedra>
-  std::string hourglass = "viscous";     // of Registry<OnePoint>
+  std::string integration = "one point";    // of Registry<Hexahedra>
+  std::string hourglass = hourglass_by_law; // of Registry<OnePoint>
   /** Which rotation the stress follows: by the spin of the velocity
       gradient, or by R of F = R U, without oscillation in large elastic
       shear. Jaumann: Hughes & Winget's spin of the step. Green-Naghdi: costs

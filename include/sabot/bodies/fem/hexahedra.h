@@ -69,6 +69,9 @@ public:
   /** Keep these cells only, ascending. All arrays over cells and points are
       compacted in place; the padding behind the last cell is filled up anew. */
   virtual void keep(const std::vector<std::size_t> &kept) = 0;
+  /** Name of the form that holds motions without strain; empty for rules that
+      have none. */
+  virtual std::string hourglass_control() const { return ""; }
   /** Everything of the cells that a restart needs; the rules add their own.
       Connectivity and reference data are not part of it: they are set up
       from the mesh before, and eroded cells are taken out before arrays are

@@ -9,6 +9,12 @@
 
 namespace sabot
 {
+/** Name of the form that @p options come to: of "automatic", stiffness for laws
+    that never yield, whose modes it gives back, and viscous for all others,
+    whose large flow a stiffness would resist. */
+std::string chosen_hourglass_control(const FemOptions &options,
+                                     const Material &material);
+
 /**
  * One-point hexahedra with hourglass control, in total Lagrangian form
  * (doc/theory-fem.md): with the mean gradients B_a of the reference
@@ -49,6 +55,10 @@ public:
   void cell_forces(const NodalState &nodes, const std::size_t cell,
                    Vec force[8]) const override;
   void keep(const std::vector<std::size_t> &kept) override;
+  std::string hourglass_control() const override
+  {
+    return chosen_hourglass_control(options, *material);
+  }
   void visit_state(StateVisitor &visitor) override;
 
 protected:

@@ -1,0 +1,80 @@
+#ifndef sabot_couplings_debris_h
+#define sabot_couplings_debris_h
+
+#include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/symmetry_walls.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sabot
+{
+/** A loose particle as all ranks know it. */
+struct LooseParticle
+{
+  NodeKey key;
+  std::size_t local; // on its owner
+  bool is_continuous;
+  Vec x;
+};
+
+/** The loose particles of the bodies that take part, and who meets whom. */
+struct Debris
+{
+  std::vector<DebrisView> views; // of bodies
+  std::vector<char> meet;        // two bodies, a row each
+  std::vector<LooseParticle> mine, all;
+  double largest_spacing = 0.; // [m]
+
+  bool may_meet(const NodeKey &a, const NodeKey &b) const
+  {
+    return meet[a.body * views.size() + b.body];
+  }
+  /** Of the bodies in @p body_pairs. Collective. */
+  static Debris gather(const std::vector<Body *> &bodies,
+                       const std::vector<std::pair<int, int>> &body_pairs,
+                       MPI_Comm communicator);
+};
+
+/**
+ * Mirror images of debris in the planes of symmetry of a scene. An image is a
+ * set of planes, a bit each, in which a particle is mirrored one after the
+ * other; the empty set is the particle itself. What lies on a plane is its own
+ * image there.
+ */
+class DebrisImages
+{
+public:
+  /** A particle or an image of it. */
+  struct Item
+  {
+    std::size_t number; // of the particle
+    std::uint64_t image;
+    Vec x;
+  };
+
+  /** Before the bodies are distributed. */
+  explicit DebrisImages(const std::vector<Body *> &bodies);
+  bool any() const { return !walls.empty(); }
+  /** @p x as mirrored in @p image. */
+  Vec mirrored(const std::uint64_t image, Vec x) const;
+  /** Axes along which vectors of an image are turned around, for flipped(). */
+  unsigned int turned_axes(const std::uint64_t image) const;
+  /** From a particle to its own @p image, of which @p offset is the size. Also
+      of a particle that came beyond a plane by round-off its image is on the
+      other side. */
+  Vec to_own_image(const std::uint64_t image, Vec offset) const;
+  /** The planes that body @p body meets closer to @p x than @p reach [m]. */
+  std::uint64_t near(const int body, const Vec x, const double reach) const;
+  /** All particles, with their images in planes closer than @p reach [m]. */
+  std::vector<Item> with_images(const std::vector<LooseParticle> &particles,
+                                const double reach) const;
+
+private:
+  std::vector<SymmetryWall> walls;    // of all bodies
+  std::vector<std::uint64_t> of_body; // a bit for each wall
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,174 @@
+// Planes of symmetry hold what comes to them: it meets its mirror image.
+#include "sabot/couplings/symmetry_walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sabot
+{
+namespace
+{
+/** Distances below this part of a body's extent are round-off of meshes. */
+constexpr double round_off = 1e-9;
+
+/** Bounds of a body along an axis, and the middle of its nodes. */
+struct Extent
+{
+  double low = std::numeric_limits<double>::max(),
+         high = std::numeric_limits<double>::lowest(), middle = 0.;
+};
+
+Extent extent(const Body &body, const int axis)
+{
+  Extent e;
+  const auto &points = body.partition_points();
+  for (const auto &x : points)
+  {
+    e.low = std::min(e.low, x[axis]);
+    e.high = std::max(e.high, x[axis]);
+    e.middle += x[axis] / points.size();
+  }
+  return e;
+}
+} // namespace
+
+std::vector<std::vector<SymmetryWall>>
+find_symmetry_walls(const std::vector<Body *> &bodies)
+{
+  std::vector<std::vector<SymmetryWall>> walls(bodies.size());
+  std::vector<SymmetryWall> all;
+  for (const Body *body : bodies)
+    for (const SymmetryPlane &plane : body->planes_of_symmetry())
+    {
+      const Extent e = extent(*body, plane.axis);
+      const double side = e.middle > plane.coordinate ? 1. : -1.,
+                   tolerance = round_off * (e.high - e.low);
+      if (std::none_of(all.begin(), all.end(),
+                       [&](const SymmetryWall &other)
+                       {
+                         return other.plane.axis == plane.axis &&
+                                other.side == side &&
+                                std::abs(other.plane.coordinate -
+                                         plane.coordinate) <= tolerance;
+                       }))
+        all.push_back({plane, side});
+    }
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const SymmetryWall &wall : all)
+    {
+      const Extent e = extent(*bodies[b], wall.plane.axis);
+      const double first = wall.side > 0. ? e.low - wall.plane.coordinate
+                                          : wall.plane.coordinate - e.high;
+      const double tolerance = round_off * (e.high - e.low);
+      if (first < -tolerance)
+        continue;
+      walls[b].push_back(wall);
+      for (const SymmetryPlane &own : bodies[b]->planes_of_symmetry())
+        if (own.axis == wall.plane.axis &&
+            std::abs(own.coordinate - wall.plane.coordinate) <= tolerance)
+          walls[b].back().held_within = tolerance;
+    }
+  return walls;
+}
+
+SymmetryWalls::SymmetryWalls(const std::vector<Body *> &bodies,
+                             MPI_Comm communicator)
+    : Coupling("planes of symmetry"), bodies(bodies),
+      communicator(communicator), walls(find_symmetry_walls(bodies)),
+      impulse(bodies.size())
+{
+}
+
+bool SymmetryWalls::any() const
+{
+  return std::any_of(walls.begin(), walls.end(),
+                     [](const auto &of_body) { return !of_body.empty(); });
+}
+
+void SymmetryWalls::add_forces(const double dt)
+{
+  held.clear();
+  if (!is_step(dt))
+    return;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const SymmetryWall &wall : walls[b])
+      hold(b, wall, dt);
+}
+
+void SymmetryWalls::hold(const std::uint32_t body, const SymmetryWall &wall,
+                         const double dt)
+{
+  NodalState &nodes = bodies[body]->nodes();
+  const bool is_rigid = !bodies[body]->moves_node_by_node();
+  const int axis = wall.plane.axis;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    const double g = wall.distance(nodes.position[i]),
+                 v = wall.side * nodes.velocity[i][axis],
+                 f = wall.side * nodes.force[i][axis], m = nodes.inertia[i];
+    // The mass times where it would be, one step on.
+    const double next =
+        m * (is_rigid ? g : g + dt * v) + (is_rigid ? 0. : dt * dt * f);
+    if (!(next < 0.) || nodes.is_follower(i) ||
+        wall.distance(nodes.reference_position[i]) <= wall.held_within)
+      continue;
+    const bool bounces = !is_rigid && -m * v > 2. * dt * std::abs(f);
+    Held h{body, std::uint32_t(i), Vec{}};
+    h.force[axis] =
+        wall.side * (bounces ? -2. * (m * v / dt + f) : -next / (dt * dt));
+    nodes.force[i] += h.force;
+    held.push_back(h);
+    farthest = std::max(farthest, -g);
+  }
+}
+
+void SymmetryWalls::accumulate_work(const double half_dt)
+{
+  for (const Held &h : held)
+  {
+    work.add(half_dt * dot(h.force, bodies[h.body]->nodes().velocity[h.node]));
+    impulse[h.body].add(half_dt * h.force);
+  }
+}
+
+void SymmetryWalls::add_energies(EnergyLedger &ledger) const
+{
+  ledger.contact.subtract(work);
+}
+
+Measures SymmetryWalls::measure() const
+{
+  double beyond = farthest;
+  MPI_Allreduce(MPI_IN_PLACE, &beyond, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  ExactSum done = work;
+  ExactSum::reduce({&done}, communicator);
+  return {{"beyond a plane max", "m", beyond},
+          {"contact energy", "J", -done.value()}};
+}
+
+std::vector<Resultant> SymmetryWalls::resultants() const
+{
+  std::vector<ExactVectorSum> force(bodies.size()), total = impulse;
+  for (const Held &h : held)
+    force[h.body].add(h.force);
+  std::vector<ExactVectorSum *> sums;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    sums.insert(sums.end(), {&force[b], &total[b]});
+  ExactVectorSum::reduce(sums, communicator);
+  std::vector<Resultant> all;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!walls[b].empty())
+      all.push_back({name, int(b), force[b].value(), total[b].value(), true});
+  return all;
+}
+
+void SymmetryWalls::visit_state(StateVisitor &visitor)
+{
+  // Half of the work of these forces is still to be counted.
+  visitor.visit_resized("held nodes", held);
+  visitor.visit_value("work at planes", work);
+  visitor.visit_array("impulses at planes", impulse);
+  visitor.visit_value("farthest beyond planes", farthest);
+}
+} // namespace sabot

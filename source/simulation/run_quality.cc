@@ -1,0 +1,102 @@
+// What the end of a run tells of how far its answer is to be trusted.
+#include "sabot/simulation/run_quality.h"
+
+#include "sabot/base/error.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sabot
+{
+namespace
+{
+/** Penetration over spacing from which on contact is no surface any more. */
+constexpr double deep = 0.5;
+
+std::string percent(const double share)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g %%", 100. * share);
+  return text;
+}
+
+bool holds_only_rigid(const Coupling &coupling,
+                      const std::vector<std::unique_ptr<Body>> &bodies)
+{
+  const auto pairs = coupling.holds_apart();
+  return !pairs.empty() &&
+         std::none_of(pairs.begin(), pairs.end(),
+                      [&](const std::pair<int, int> &pair)
+                      {
+                        return bodies[pair.first]->facts().deforms ||
+                               bodies[pair.second]->facts().deforms;
+                      });
+}
+} // namespace
+
+void check_rigid_penetration(const Scene &scene)
+{
+  // Bodies that deform may be crushed beyond recognition; rigid ones cannot.
+  constexpr double through = 1.;
+  for (const auto &coupling : scene.couplings)
+  {
+    if (!holds_only_rigid(*coupling, scene.bodies))
+      continue;
+    for (const Measure &m : coupling->measure())
+      if (m.name == "penetration max over spacing" && m.value > through)
+      {
+        double closing = 0.;
+        for (const auto &other : scene.couplings)
+          for (const Measure &n : other->measure())
+            if (n.name == "closing per step over spacing max")
+              closing = n.value;
+        char text[300];
+        std::snprintf(
+            text, sizeof(text),
+            "rigid bodies in contact \"%s\" went into each other by "
+            "%.3g spacings, closing in by up to %.3g spacings a step; "
+            "set \"Largest step\" so that a step closes less, or "
+            "refine their \"Cell size\"",
+            coupling->name.c_str(), m.value, closing);
+        throw PhysicsError(text);
+      }
+  }
+}
+
+void describe_quality(const Scene &scene, const ControlShares &shares,
+                      const double energy_scale, Log &log)
+{
+  for (const auto &body : scene.bodies)
+  {
+    const std::string control = body->measure().control;
+    if (control.empty())
+      continue;
+    const std::string share = control + " energy of body \"" + body->name +
+                              "\" is " + percent(shares.share(body->id)) +
+                              " of its internal energy (largest of the run)";
+    if (!shares.is_large(body->id, energy_scale))
+      log.line("  " + share);
+    else
+      log.warning(share + ", more than " + percent(ControlShares::most) +
+                  ": the answer depends on it; use finer " + body->item_name() +
+                  (control == "hourglass"
+                       ? ", \"Integration = B-bar\" or, where nothing yields, "
+                         "\"Hourglass control = stiffness\""
+                       : ""));
+  }
+  for (const auto &coupling : scene.couplings)
+    for (const Measure &m : coupling->measure())
+      if (m.name == "penetration max over spacing" && m.value > 0.)
+      {
+        char text[64];
+        std::snprintf(text, sizeof(text), "%.3g spacings", m.value);
+        const std::string depth =
+            "contact " + coupling->name + ": nodes went in by up to " + text;
+        if (m.value > deep)
+          log.warning(depth + "; a smaller \"Step factor\" or a larger "
+                              "\"Stiffness scale\" makes it stiffer");
+        else
+          log.line("  " + depth);
+      }
+}
+} // namespace sabot
