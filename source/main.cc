@@ -1,7 +1,10 @@
 // The program: its command line, and what each command calls.
+#include "sabot/base/error_report.h"
 #include "sabot/base/mpi_session.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/program.h"
+#include "sabot/base/stop_signals.h"
+#include "sabot/output/file_lock.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/reference/reference.h"
 #include "sabot/simulation/plan.h"
@@ -21,7 +24,6 @@
 
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -83,6 +85,7 @@ ExitCode with_scene(const ParameterFile &file, const Work &work)
   try
   {
     Scene scene(file, MPI_COMM_WORLD);
+    stop_early_when_asked(MPI_COMM_WORLD);
     return work(scene);
   }
   catch (const InputError &error)
@@ -93,10 +96,13 @@ ExitCode with_scene(const ParameterFile &file, const Work &work)
 
 ExitCode run_scene(const Arguments &arguments)
 {
+  listen_to_stop_signals();
   const ParameterFile file(arguments.scene, arguments.overrides);
   return with_scene(file,
                     [&](Scene &scene)
                     {
+                      const FolderLock lock(arguments.folder, true,
+                                            MPI_COMM_WORLD);
                       claim_results_folder(arguments.folder,
                                            arguments.overwrite, MPI_COMM_WORLD);
                       return Run(scene, arguments.folder, arguments.quiet,
@@ -154,6 +160,8 @@ ExitCode plan_scene(const Arguments &arguments)
 
 ExitCode resume_run(const Arguments &arguments)
 {
+  listen_to_stop_signals();
+  const FolderLock lock(arguments.folder, false, MPI_COMM_WORLD);
   const ResumePoint point =
       find_resume_point(arguments.folder, arguments.overrides, MPI_COMM_WORLD);
   const ParameterFile file(point.scene, arguments.overrides);
@@ -213,30 +221,6 @@ ExitCode write_reference(const Arguments &arguments)
   for (const ReferencePage &page : reference_pages())
     write_text(arguments.folder + "/" + page.file, page.text);
   return start_verification({"--page", arguments.folder + "/problems.md"});
-}
-
-/** Run a command; what it throws becomes a message and an exit code. */
-template <typename Work>
-int report_errors(const bool speaks, const Work &work)
-{
-  ExitCode code = ExitCode::done;
-  try
-  {
-    code = work();
-  }
-  catch (const InputError &error)
-  {
-    if (speaks)
-      std::cerr << "error: " << error.what() << std::endl;
-    code = ExitCode::bad_input;
-  }
-  catch (const IOError &error)
-  {
-    if (speaks)
-      std::cerr << "error: " << error.what() << std::endl;
-    code = ExitCode::io_failed;
-  }
-  return static_cast<int>(code);
 }
 
 void add_overrides(CLI::App &command, std::vector<std::string> &overrides,
@@ -420,11 +404,8 @@ int main(int argc, char **argv)
   }
   const auto act = [&]() { return action.run(arguments); };
   if (!action.uses_mpi)
-    return report_errors(true, act);
-
-  // What exceeds a limit on files is an error of the write, as a full disk is.
-  std::signal(SIGXFSZ, SIG_IGN);
+    return report_errors(false, act);
   program_facts() = {command_text(argc, argv), source_revision()};
   const MpiSession mpi(argc, argv);
-  return report_errors(is_first_rank(), act);
+  return report_errors(true, act);
 }

@@ -1,6 +1,8 @@
 // Starts and ends MPI through deal.II.
 #include "sabot/base/mpi_session.h"
 
+#include "sabot/base/stop_signals.h"
+
 #include <deal.II/base/mpi.h>
 
 namespace sabot
@@ -11,8 +13,9 @@ struct MpiSession::Libraries
 };
 
 MpiSession::MpiSession(int &argc, char **&argv)
-    : libraries(new Libraries{{argc, argv, 1}})
 {
+  const StopSignalsWait wait;
+  libraries.reset(new Libraries{{argc, argv, 1}});
 }
 
 MpiSession::~MpiSession() = default;

@@ -176,15 +176,20 @@ std::vector<StateBlock> read_blocks(const std::string &file, const int rank,
 const std::string trailer_start = "\nSHA-256 ";
 constexpr std::size_t trailer_size = 9 + 64 + 1;
 
-void append_trailer(const std::string &file)
+/** To @p file, which will be called @p name. */
+void append_trailer(const std::string &file, const std::string &name)
 {
-  const std::string hash = sha256_of_file(file, fs::file_size(file));
+  std::error_code error;
+  const std::size_t size = fs::file_size(file, error);
+  if (error)
+    throw IOError("cannot write \"" + name + "\": " + error.message());
+  const std::string hash = sha256_of_file(file, size);
   errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::app);
   stream << trailer_start << hash << "\n";
   stream.close();
   if (hash.empty() || !stream)
-    throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
+    throw IOError("cannot write \"" + name + "\": " + std::strerror(errno));
 }
 
 void check_trailer(const std::string &file)
@@ -202,14 +207,14 @@ void check_trailer(const std::string &file)
     damaged(file, "its bytes do not match its checksum");
 }
 
-void flush_to_disk(const std::string &file)
+void flush_to_disk(const std::string &file, const std::string &name)
 {
   const int descriptor = ::open(file.c_str(), O_RDONLY);
   const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
   if (descriptor >= 0)
     ::close(descriptor);
   if (!good)
-    throw IOError("cannot write \"" + file + "\": " + std::strerror(errno));
+    throw IOError("cannot write \"" + name + "\": " + std::strerror(errno));
 }
 
 /** What a rank other than 0 does of write(): its part of the index, then its
@@ -284,8 +289,8 @@ void write_file(const std::string &temporary, const std::string &name,
   h5.close();
   if (!good)
     throw IOError("cannot write \"" + name + "\": HDF5 could not lay it out");
-  append_trailer(temporary);
-  flush_to_disk(temporary);
+  append_trailer(temporary, name);
+  flush_to_disk(temporary, name);
 }
 } // namespace
 
@@ -299,16 +304,21 @@ CheckpointFolder::CheckpointFolder(const std::string &folder,
   if (rank == 0)
     try
     {
-      make_folder(folder);
+      kept = std::make_unique<KeptFolder>(folder);
     }
     catch (const IOError &e)
     {
       problem = e.what();
     }
+  throw_together(problem);
+}
+
+void CheckpointFolder::throw_together(const std::string &problem) const
+{
   int bad = !problem.empty();
   MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
   if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not write its output"
+    throw IOError(problem.empty() ? "rank 0 could not write a checkpoint"
                                   : problem);
 }
 
@@ -331,7 +341,9 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
     add_line(lines,
              {rank, block.n, block.size,
               sha256(block.bytes.data(), block.bytes.size()), block.name});
-  std::string problem;
+  // Before anybody sends: all hear of it, and nobody waits.
+  std::string problem = trouble();
+  throw_together(problem);
   std::size_t n_bytes = 0;
   if (rank != 0)
     send_blocks(lines.str(), blocks, communicator);
@@ -355,13 +367,10 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
     }
     catch (const IOError &e)
     {
-      problem = e.what();
+      // Why, where the folder went away within the write.
+      problem = trouble().empty() ? e.what() : trouble();
     }
-  int bad = !problem.empty();
-  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
-  if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not write a checkpoint"
-                                  : problem);
+  throw_together(problem);
   return n_bytes;
 }
 
@@ -369,12 +378,13 @@ std::vector<std::string> CheckpointFolder::list(const std::string &folder)
 {
   std::vector<std::string> files;
   std::error_code error;
-  for (const auto &entry : fs::directory_iterator(folder, error))
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
   {
-    const std::string name = entry.path().filename().string();
-    if (name.compare(0, prefix.size(), prefix) == 0 &&
-        entry.path().extension() == ending)
-      files.push_back(entry.path().string());
+    const fs::path path = entry->path();
+    if (path.filename().string().compare(0, prefix.size(), prefix) == 0 &&
+        path.extension() == ending)
+      files.push_back(path.string());
   }
   std::sort(files.rbegin(), files.rend()); // numbers have leading zeros
   return files;

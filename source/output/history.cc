@@ -11,6 +11,23 @@ namespace sabot
 {
 namespace
 {
+/** A row of a file: nothing but doubles, and no more of them than the file has
+    room for; what else stands there was not written by this program. */
+bool is_table(const hid_t type, const hid_t space, const double file_size)
+{
+  const hssize_t n = H5Sget_simple_extent_npoints(space);
+  if (H5Tget_class(type) != H5T_COMPOUND || n < 0 ||
+      double(n) * double(H5Tget_size(type)) > file_size)
+    return false;
+  for (int c = 0; c < H5Tget_nmembers(type); ++c)
+  {
+    const Hdf5Handle member(H5Tget_member_type(type, c), H5Tclose);
+    if (H5Tget_class(member) != H5T_FLOAT || H5Tget_size(member) != 8)
+      return false;
+  }
+  return true;
+}
+
 hid_t row_type(const std::vector<std::string> &columns)
 {
   const hid_t type = H5Tcreate(H5T_COMPOUND, columns.size() * sizeof(double));
@@ -83,21 +100,25 @@ void History::read(const std::string &file)
   if (h5 < 0)
     throw IOError("cannot read history \"" + file + "\"");
   tables.clear();
-  hsize_t n_tables = 0;
+  hsize_t n_tables = 0, file_size = 0;
   H5Gget_num_objs(h5, &n_tables);
+  H5Fget_filesize(h5, &file_size);
   for (hsize_t t = 0; t < n_tables; ++t)
   {
-    char name[1024];
+    char name[1024] = "";
     H5Gget_objname_by_idx(h5, t, name, sizeof(name));
     const Hdf5Handle set(H5Dopen2(h5, name, H5P_DEFAULT), H5Dclose);
     const Hdf5Handle type(H5Dget_type(set), H5Tclose);
     const Hdf5Handle space(H5Dget_space(set), H5Sclose);
+    if (!is_table(type, space, double(file_size)))
+      throw IOError("history \"" + file + "\": \"" + name +
+                    "\" is not a table of numbers");
     Table &table = tables[name];
     const int n_columns = H5Tget_nmembers(type);
     for (int c = 0; c < n_columns; ++c)
     {
       char *const column = H5Tget_member_name(type, c);
-      table.columns.push_back(column);
+      table.columns.push_back(column == nullptr ? "" : column);
       H5free_memory(column);
     }
     table.values.resize(n_columns * H5Sget_simple_extent_npoints(space));

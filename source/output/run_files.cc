@@ -2,6 +2,7 @@
 #include "sabot/output/run_files.h"
 
 #include "sabot/base/error.h"
+#include "sabot/base/error_report.h"
 #include "sabot/base/text.h"
 #include "sabot/bodies/body.h"
 #include "sabot/output/vtu_writer.h"
@@ -14,6 +15,16 @@ RunFiles::RunFiles(const std::string &folder, MPI_Comm communicator)
 }
 
 RunFiles::~RunFiles() = default;
+
+void RunFiles::keep_folder()
+{
+  kept = std::make_unique<KeptFolder>(folder);
+}
+
+std::string RunFiles::folder_trouble() const
+{
+  return kept ? kept->trouble() : "";
+}
 
 void RunFiles::open_fields()
 {
@@ -30,7 +41,10 @@ bool RunFiles::write_fields(const double time,
   std::vector<std::string> names;
   for (const Body *const body : bodies)
   {
-    fields->write_body(body->name, body->output_mesh(), frame);
+    within_memory("the fields of body \"" + body->name + "\"",
+                  [&]() {
+                    fields->write_body(body->name, body->output_mesh(), frame);
+                  });
     names.push_back(body->name);
   }
   fields->add_time(time, frame, names);
@@ -57,6 +71,8 @@ void RunFiles::write_history()
   if (rank == 0)
     try
     {
+      if (kept)
+        kept->check();
       history.write(folder + "/history.h5");
     }
     catch (const IOError &e)

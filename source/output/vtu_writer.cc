@@ -21,6 +21,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -80,7 +81,7 @@ VtuWriter::VtuWriter(const std::string &folder, MPI_Comm communicator)
   try
   {
     if (rank == 0)
-      make_folder(folder + "/fields");
+      kept = std::make_unique<KeptFolder>(folder + "/fields");
   }
   catch (const IOError &e)
   {
@@ -136,11 +137,19 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
   const std::string file = folder + "/fields/" + piece_name(body, frame, rank);
   try
   {
+    if (kept)
+      kept->check();
     write_atomically(
         file,
         [&](const std::string &temporary)
         {
+          // What keeps a file from being made is told by us, not by VTK, which
+          // fills the screen.
           errno = 0;
+          if (!std::ofstream(temporary))
+            throw IOError("cannot write \"" + file +
+                          "\": " + std::strerror(errno));
+          vtkObject::GlobalWarningDisplayOff();
           vtkNew<vtkXMLUnstructuredGridWriter> writer;
           writer->SetFileName(temporary.c_str());
           writer->SetInputData(grid);

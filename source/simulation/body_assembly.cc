@@ -1,6 +1,7 @@
 // Bodies of a scene from their shapes, zones and discretizations.
 #include "sabot/simulation/body_assembly.h"
 
+#include "sabot/base/error_report.h"
 #include "sabot/base/text.h"
 #include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_import.h"
@@ -32,9 +33,10 @@ std::unique_ptr<BodyShape> BodyAssembly::shape_of(const std::string &body) const
 void BodyAssembly::build(const std::vector<std::string> &names)
 {
   find_carvings(names);
-  carve_meshes();
+  within_memory("meshes with zones", [&]() { carve_meshes(); });
   for (const std::string &name : names)
-    bodies.push_back(make_body(name, bodies.size()));
+    within_memory("body \"" + name + "\"",
+                  [&]() { bodies.push_back(make_body(name, bodies.size())); });
   for (const Carving &carving : carvings)
     zones.push_back(record(carving));
 }

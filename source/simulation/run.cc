@@ -1,6 +1,9 @@
 // The run of a scene, from set-up to result.
 #include "sabot/simulation/run.h"
 
+#include "sabot/base/error_report.h"
+#include "sabot/base/stop_signals.h"
+#include "sabot/output/file_tools.h"
 #include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/plan.h"
@@ -10,19 +13,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 
 namespace sabot
 {
 namespace
 {
-volatile std::sig_atomic_t asked_to_stop = 0;
-void note_signal(int)
-{
-  asked_to_stop = 1;
-}
-
 std::string format(const char *pattern, const double value)
 {
   char text[64];
@@ -71,8 +67,6 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
 
 ExitCode Run::execute(const std::string &checkpoint)
 {
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
   start_time = std::chrono::steady_clock::now();
   std::string status = "completed", reason;
   ExitCode code = ExitCode::done;
@@ -81,12 +75,12 @@ ExitCode Run::execute(const std::string &checkpoint)
   {
     start(checkpoint);
     started = true;
-    loop();
+    within_memory("the steps of the run", [&]() { loop(); });
     if (interrupted)
     {
       write_checkpoint();
       status = "interrupted";
-      reason = "a signal asked the run to stop";
+      reason = signal_name(stop_signal()) + " asked the run to stop";
       code = ExitCode::interrupted;
     }
   }
@@ -113,7 +107,7 @@ void Run::open_folder(const bool append)
   if (rank == 0)
     try
     {
-      make_folder(files.folder);
+      files.keep_folder();
       log.open(files.folder + "/log.txt", append);
       // While the run goes on, nothing says that it is finished.
       remove_file(files.folder + "/result.json");
@@ -141,8 +135,9 @@ void Run::start(const std::string &checkpoint)
   const PhysicsPlan physics = plan_physics(scene);
   {
     const auto timer = timers.scope("set-up");
-    scene.distribute();
-    stepper.initialize();
+    within_memory("the parts of the ranks", [&]() { scene.distribute(); });
+    stop_early_when_asked(communicator);
+    within_memory("the first forces", [&]() { stepper.initialize(); });
   }
   add_warnings(physics, scene);
   report.describe_scene();
@@ -157,6 +152,16 @@ void Run::start(const std::string &checkpoint)
     write_outputs(false);
   }
   schedule.start(stepper.time());
+}
+
+bool Run::keeps_folders()
+{
+  constexpr std::chrono::seconds pause(1);
+  const auto now = std::chrono::steady_clock::now();
+  if (rank != 0 || now - last_look < pause)
+    return true;
+  last_look = now;
+  return files.folder_trouble().empty() && checkpoints.trouble().empty();
 }
 
 bool Run::record_due() const
@@ -191,7 +196,8 @@ void Run::loop()
 {
   while (!stepper.is_finished())
   {
-    const StepProposal proposal = stepper.propose(asked_to_stop != 0);
+    const StepProposal proposal =
+        stepper.propose(stop_signal() != 0 || !keeps_folders());
     if (proposal.interrupted)
     {
       interrupted = true;

@@ -1,6 +1,8 @@
 // What a run saves in checkpoints, and how it goes on from them.
 #include "sabot/simulation/run.h"
 
+#include "sabot/base/error_report.h"
+
 #include <cstdio>
 
 namespace sabot
@@ -74,7 +76,8 @@ void Run::write_checkpoint(const std::string &name)
   header.step = stepper.steps();
   header.time = stepper.time();
   StateSaver saver;
-  visit_all(saver);
+  within_memory("a copy of the state for a checkpoint",
+                [&]() { visit_all(saver); });
   const std::size_t n_bytes = checkpoints.write(header, saver.blocks, name);
   char text[200];
   std::snprintf(text, sizeof(text),

@@ -1,6 +1,7 @@
 // A scene from its file: loops over what its lists name.
 #include "sabot/simulation/scene.h"
 
+#include "sabot/base/error_report.h"
 #include "sabot/couplings/closing_limit.h"
 #include "sabot/couplings/coupling_builder.h"
 #include "sabot/couplings/symmetry_walls.h"
@@ -277,7 +278,10 @@ void Scene::distribute()
     const std::size_t n = body->partition_points().size();
     body->node_owner.assign(owner.begin() + first, owner.begin() + first + n);
     first += n;
-    body->distribute(body->node_owner, communicator);
+    within_memory("body \"" + body->name + "\" (" +
+                      std::to_string(body->n_items()) + " " +
+                      body->item_name() + ")",
+                  [&]() { body->distribute(body->node_owner, communicator); });
   }
   for (const auto &load : loads)
     load->initialize();

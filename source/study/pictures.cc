@@ -39,7 +39,9 @@ std::string title_of(const std::string &folder)
 {
   std::ifstream file(folder + "/result.json");
   const nlohmann::json result = nlohmann::json::parse(file, nullptr, false);
-  return file && result.is_object() ? result.value("title", "") : "";
+  const bool has_title = result.is_object() && result.contains("title") &&
+                         result["title"].is_string();
+  return file && has_title ? result["title"].get<std::string>() : "";
 }
 
 /** What the program that draws has said, on one line. */
@@ -111,8 +113,13 @@ std::string draw_pictures(const nlohmann::ordered_json &drawings,
   command.words.insert(command.words.end(), {program, file, folder});
   command.log = folder + "/drawings.txt";
   int code = 0;
+  const auto at_once = [&](std::size_t, Command &next)
+  {
+    next = command;
+    return Turn::now;
+  };
   const bool started = run_processes(
-      {command}, 1, [&](const Ended &ended) { code = ended.code; });
+      1, 1, at_once, [&](const Ended &ended) { code = ended.code; });
   if (!started)
     return "a signal asked to stop";
   if (code == 0)

@@ -23,18 +23,33 @@ double number(const nlohmann::json &node, const std::string &key)
              : nothing;
 }
 
+/** What stands under @p key; null for what is not there, or in something that
+    has no keys: a result may be damaged, or of a program to come. */
+const nlohmann::json &part(const nlohmann::json &node, const std::string &key)
+{
+  static const nlohmann::json none;
+  return node.is_object() && node.contains(key) ? node[key] : none;
+}
+
+std::string text_of(const nlohmann::json &node, const std::string &key)
+{
+  const nlohmann::json &text = part(node, key);
+  return text.is_string() ? text.get<std::string>() : "";
+}
+
 std::string zone_in_words(const nlohmann::json &zones)
 {
   std::string text;
   for (const auto &zone : zones.items())
   {
-    const double distance = number(zone.value()["plastic_strain_over_0.01"],
-                                   "distance_from_tie_in_spacings");
+    const double distance =
+        number(part(zone.value(), "plastic_strain_over_0.01"),
+               "distance_from_tie_in_spacings");
     char room[60] = "";
     if (std::isfinite(distance))
       std::snprintf(room, sizeof(room), " (%.1f spacings)", distance);
     text += (text.empty() ? "" : "; ") + zone.key() + ": " +
-            zone.value().value("verdict", "") + room;
+            text_of(zone.value(), "verdict") + room;
   }
   return text;
 }
@@ -50,28 +65,30 @@ StudyOutcome read_outcome(const std::string &folder,
   const nlohmann::json r = nlohmann::json::parse(file, nullptr, false);
   if (!file || !r.is_object())
     return outcome;
-  outcome.status = r.value("status", "missing");
-  outcome.reason = r.value("reason", "");
+  const std::string status = text_of(r, "status");
+  if (status != "completed" && status != "failed" && status != "interrupted")
+    return outcome;
+  outcome.status = status;
+  outcome.reason = text_of(r, "reason");
   outcome.cpu_seconds = number(r, "cpu_seconds");
   outcome.wall_seconds = number(r, "wall_seconds");
   outcome.energy_residual = number(r, "energy_residual_max");
   outcome.steps = number(r, "steps");
-  for (const auto &body : r["bodies"].items())
+  for (const auto &body : part(r, "bodies").items())
     for (const char *const kind : {"particles", "cells"})
-      if (body.value().contains(kind))
+      if (!part(body.value(), kind).is_null())
         outcome.items += number(body.value(), kind);
-  if (r.contains("energy"))
-    for (const auto &part : r["energy"].items())
-      outcome.energy.emplace_back(part.key(), number(r["energy"], part.key()));
-  if (r.contains("zone"))
-    outcome.zone = zone_in_words(r["zone"]);
+  for (const auto &term : part(r, "energy").items())
+    outcome.energy.emplace_back(term.key(),
+                                number(part(r, "energy"), term.key()));
+  outcome.zone = zone_in_words(part(r, "zone"));
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (r["quantities"].contains(quantities[q].name))
-    {
-      const auto &quantity = r["quantities"][quantities[q].name];
-      outcome.quantities[q] = number(quantity, "value");
-      outcome.units[q] = quantity.value("unit", "");
-    }
+  {
+    const nlohmann::json &quantity =
+        part(part(r, "quantities"), quantities[q].name);
+    outcome.quantities[q] = number(quantity, "value");
+    outcome.units[q] = text_of(quantity, "unit");
+  }
   try
   {
     History history;

@@ -2,8 +2,10 @@
 #include "sabot/study/study.h"
 
 #include "sabot/base/hash.h"
+#include "sabot/base/stop_signals.h"
 #include "sabot/base/text.h"
 #include "sabot/output/checkpoint.h"
+#include "sabot/output/file_lock.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/study/pictures.h"
 #include "sabot/study/process_pool.h"
@@ -15,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <set>
 
 namespace sabot
@@ -91,12 +94,50 @@ std::string build_of(const std::string &folder)
   return build;
 }
 
+/** Whether a run is as good as done: kept, unless asked for anew. */
+struct RunState
+{
+  std::string status;
+  bool is_of_other_build = false;
+  bool is_kept = false;
+};
+
+RunState state_of(const StudyArguments &arguments, const StudyFile &study,
+                  const StudyRun &run, const std::string &build)
+{
+  RunState state;
+  const std::string folder = run_folder(arguments, run),
+                    built = build_of(folder);
+  state.status = read_outcome(folder, study.quantities).status;
+  state.is_of_other_build = !built.empty() && built != build;
+  state.is_kept = (state.status == "completed" ||
+                   (state.status == "failed" && !arguments.retry)) &&
+                  !(state.is_of_other_build && arguments.renew);
+  return state;
+}
+
+/** When a run's result was written; no time where there is none. */
+fs::file_time_type time_of_result(const std::string &folder)
+{
+  std::error_code error;
+  const auto time = fs::last_write_time(folder + "/result.json", error);
+  return error ? fs::file_time_type::min() : time;
+}
+
 /** What is to be started, and what is kept from before. */
 struct Plan
 {
-  std::vector<Command> commands;
-  std::vector<const StudyRun *> started; // per command
-  std::size_t n_different = 0;           // two choices may give one scene
+  struct Item
+  {
+    const StudyRun *run;
+    std::string folder;
+    fs::file_time_type result_time;  // when it was planned
+    std::unique_ptr<FileLock> lock;  // while it runs
+    bool waits = false;              // another study has it
+  };
+  std::string build;
+  std::vector<Item> items;     // to be started
+  std::size_t n_different = 0; // two choices may give one scene
   std::size_t n_kept = 0, n_of_other_builds = 0;
 };
 
@@ -104,37 +145,73 @@ Plan plan_runs(const StudyArguments &arguments, const StudyFile &study)
 {
   Plan plan;
   std::set<std::string> seen;
-  const std::string build = build_of_program();
+  plan.build = build_of_program();
   for (const StudyRun &run : study.runs)
   {
     if (!seen.insert(run.key).second)
       continue;
+    const RunState state = state_of(arguments, study, run, plan.build);
+    plan.n_kept += state.is_kept;
+    plan.n_of_other_builds += state.is_kept && state.is_of_other_build;
     const std::string folder = run_folder(arguments, run);
-    const std::string status = read_outcome(folder, study.quantities).status;
-    const std::string built = build_of(folder);
-    const bool is_of_other_build = !built.empty() && built != build;
-    if ((status == "completed" || (status == "failed" && !arguments.retry)) &&
-        !(is_of_other_build && arguments.renew))
-    {
-      ++plan.n_kept;
-      plan.n_of_other_builds += is_of_other_build;
-      continue;
-    }
-    make_folder(folder);
-    write_text(folder + "/build.txt", build + "\n");
-    const bool resume = status != "failed" && !is_of_other_build &&
-                        !CheckpointFolder::list(folder + "/checkpoint").empty();
-    plan.commands.push_back(command_for(study, run, folder, resume));
-    plan.started.push_back(&run);
+    if (!state.is_kept)
+      plan.items.push_back(
+          {&run, folder, time_of_result(folder), nullptr, false});
   }
   plan.n_different = seen.size();
   return plan;
 }
 
+/** Take the run of @p item, unless another study has it: then its result will
+    be that of this study, too. */
+Turn prepare(const StudyArguments &arguments, const StudyFile &study,
+             const std::string &build, Plan::Item &item, Command &command)
+{
+  make_folder(item.folder);
+  auto lock = std::make_unique<FileLock>(item.folder + "/study.lock");
+  if (!lock->is_held())
+  {
+    if (!item.waits && !arguments.quiet)
+      std::cout << item.run->key << ": waiting for another study that runs it ("
+                << lock->holder() << ")" << std::endl;
+    item.waits = true;
+    return Turn::later;
+  }
+  const RunState state = state_of(arguments, study, *item.run, build);
+  const bool is_new = time_of_result(item.folder) != item.result_time;
+  if (state.is_kept || (is_new && state.status == "failed"))
+    return Turn::never;
+  write_text(item.folder + "/build.txt", build + "\n");
+  const bool resume =
+      state.status != "failed" && !state.is_of_other_build &&
+      !CheckpointFolder::list(item.folder + "/checkpoint").empty();
+  command = command_for(study, *item.run, item.folder, resume);
+  command.descriptor = lock->open_descriptor();
+  item.lock = std::move(lock);
+  return Turn::now;
+}
+
+/** What to say of a run that ended. */
+std::string report_of(const StudyFile &study, const Plan::Item &item,
+                      const int code)
+{
+  std::string text = item.run->key;
+  for (std::size_t p = 0; p < study.parameters.size(); ++p)
+    text += (p == 0 ? ": " : ", ") + study.parameters[p].name + " " +
+            study.parameters[p].values[item.run->choice[p]].label;
+  if (code == 0)
+    return text;
+  // What a quiet run says stands in its result.
+  const std::string said = last_line(item.folder + "/output.txt");
+  return text + ": exit code " + std::to_string(code) + ": " +
+         (said.empty() ? read_outcome(item.folder, study.quantities).reason
+                       : said);
+}
+
 /** Run what is missing. @return whether nothing stopped it. */
 bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
 {
-  const Plan plan = plan_runs(arguments, study);
+  Plan plan = plan_runs(arguments, study);
   const unsigned int n_processes =
       arguments.n_processes > 0 ? arguments.n_processes : study.n_processes;
   if (!arguments.quiet)
@@ -147,29 +224,28 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
                  "--renew runs them again"
               << std::endl;
   std::size_t n_ended = 0;
+  const auto say = [&](const std::string &text)
+  {
+    ++n_ended;
+    if (!arguments.quiet)
+      std::cout << "[" << n_ended << "/" << plan.items.size() << "] " << text
+                << std::endl;
+  };
+  const auto turn = [&](const std::size_t number, Command &command)
+  {
+    Plan::Item &item = plan.items[number];
+    const Turn result = prepare(arguments, study, plan.build, item, command);
+    if (result == Turn::never)
+      say(item.run->key + ": made by another study");
+    return result;
+  };
   const auto report = [&](const Ended &ended)
   {
-    const StudyRun &run = *plan.started[ended.command];
-    if (arguments.quiet)
-      return;
-    std::cout << "[" << ++n_ended << "/" << plan.commands.size() << "] "
-              << run.key;
-    for (std::size_t p = 0; p < study.parameters.size(); ++p)
-      std::cout << (p == 0 ? ": " : ", ") << study.parameters[p].name << " "
-                << study.parameters[p].values[run.choice[p]].label;
-    if (ended.code != 0)
-    {
-      // What a quiet run says stands in its result.
-      const std::string said = last_line(plan.commands[ended.command].log);
-      std::cout << ": exit code " << ended.code << ": "
-                << (said.empty() ? read_outcome(run_folder(arguments, run),
-                                                study.quantities)
-                                       .reason
-                                 : said);
-    }
-    std::cout << std::endl;
+    Plan::Item &item = plan.items[ended.command];
+    item.lock.reset();
+    say(report_of(study, item, ended.code));
   };
-  return run_processes(plan.commands, n_processes, report);
+  return run_processes(plan.items.size(), n_processes, turn, report);
 }
 
 /** Charts, and sections through those runs that have fields and no picture of
@@ -217,6 +293,10 @@ ExitCode run_study(const StudyArguments &arguments)
     list_runs(arguments, study);
     return ExitCode::done;
   }
+  listen_to_stop_signals();
+  // Runs on ranks that are told to stop have more than a second for their
+  // checkpoint, if the mpirun is OpenMPI's.
+  setenv("OMPI_MCA_odls_base_sigkill_timeout", "60", 0);
   make_folder(arguments.folder);
   const bool all_started = complete_runs(arguments, study);
 

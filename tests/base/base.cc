@@ -1,5 +1,6 @@
 // Tools that all folders stand on: sums, quantities, names, files, text.
 #include "sabot/base/entry_aliases.h"
+#include "sabot/base/error_report.h"
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/parameter_file.h"
@@ -20,6 +21,42 @@
 namespace
 {
 using namespace sabot;
+
+TEST(Errors, memory_that_does_not_suffice_has_a_name)
+{
+  const auto message = [](const std::function<void()> &work)
+  {
+    try
+    {
+      within_memory("the outer", [&]() { within_memory("the inner", work); });
+    }
+    catch (const MemoryError &e)
+    {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message([]() {}), "");
+  // Neither the size that no address space has, nor the throw by hand.
+  std::vector<double> values;
+  for (const std::string &said :
+       {message([]() { throw std::bad_alloc(); }),
+        message([&]() { values.resize(values.max_size() + 1); })})
+    EXPECT_EQ(said.find("memory does not suffice for the inner: the process"),
+              0U)
+        << said;
+  EXPECT_THROW(within_memory("x", []() { throw IOError("y"); }), IOError);
+}
+
+TEST(Errors, of_libraries_are_one_line)
+{
+  EXPECT_EQ(in_one_line("-----\nAn error occurred in line <3> of file\n"
+                        "Additional information: \n    no  such\n    cell\n\n"
+                        "Stacktrace:\n-----------\n#0 /lib\n-----\n"),
+            "no such cell");
+  EXPECT_EQ(in_one_line("two\nlines"), "two lines");
+  EXPECT_EQ(in_one_line(""), "an error without a message");
+}
 
 TEST(ExactSum, does_not_depend_on_the_order)
 {

@@ -2,8 +2,10 @@
 #include "temporary_folder.h"
 
 #include "sabot/base/error.h"
+#include "sabot/output/file_lock.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/output/history.h"
+#include "sabot/output/kept_folder.h"
 #include "sabot/output/vtu_writer.h"
 
 #include <vtkCellData.h>
@@ -14,6 +16,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <gtest/gtest.h>
+
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -129,5 +133,73 @@ TEST_F(WrittenOutput, trouble_with_the_disk_is_an_io_error)
   EXPECT_THROW(History().write("/proc/history.h5"), IOError);
   std::ofstream(folder + "/file") << "x";
   EXPECT_THROW(VtuWriter(folder + "/file", MPI_COMM_WORLD), IOError);
+}
+
+using Folders = TemporaryFolder;
+
+TEST_F(Folders, that_are_gone_or_replaced_are_told)
+{
+  namespace fs = std::filesystem;
+  const std::string path = folder + "/a/b";
+  const KeptFolder kept(path);
+  EXPECT_EQ(kept.trouble(), "");
+  std::ofstream(path + "/file") << "what it holds does not matter";
+  EXPECT_EQ(kept.trouble(), "");
+  fs::rename(path, folder + "/c");
+  EXPECT_NE(kept.trouble().find("is gone"), std::string::npos);
+  fs::create_directory(path);
+  EXPECT_NE(kept.trouble().find("has been replaced"), std::string::npos);
+  EXPECT_THROW(kept.check(), IOError);
+  fs::remove(path);
+  fs::rename(folder + "/c", path); // moved back
+  EXPECT_EQ(kept.trouble(), "");
+  fs::remove_all(path);
+  fs::create_directory(path); // perhaps under the same number
+  EXPECT_NE(kept.trouble().find("has been replaced"), std::string::npos);
+}
+
+TEST_F(Folders, a_lock_has_one_owner)
+{
+  const std::string file = folder + "/lock";
+  {
+    const FileLock first(file);
+    EXPECT_TRUE(first.is_held());
+    const FileLock second(file);
+    EXPECT_FALSE(second.is_held());
+    EXPECT_EQ(second.holder(), "process " + std::to_string(getpid()));
+    // Without its file it is nobody's business any more.
+    std::filesystem::remove(file);
+    const FileLock third(file);
+    EXPECT_TRUE(third.is_held());
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_TRUE(FileLock(file).is_held());
+  EXPECT_THROW(FileLock(folder + "/nowhere/lock"), IOError);
+}
+
+TEST_F(Folders, a_history_that_is_none_is_refused)
+{
+  History history;
+  history.append("a", {{"time", "s", 1.}, {"speed", "m/s", 2.}});
+  const std::string file = folder + "/history.h5";
+  history.write(file);
+  std::ifstream stream(file, std::ios::binary);
+  const std::string good{std::istreambuf_iterator<char>(stream), {}};
+  unsigned int n_refused = 0;
+  for (std::size_t i = 0; i < good.size(); ++i)
+  {
+    std::string bad = good;
+    bad[i] ^= 0x41;
+    std::ofstream(file, std::ios::binary) << bad;
+    try
+    {
+      history.read(file);
+    }
+    catch (const IOError &)
+    {
+      ++n_refused;
+    }
+  }
+  EXPECT_GT(n_refused, 100U);
 }
 } // namespace

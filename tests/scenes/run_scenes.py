@@ -49,8 +49,11 @@ def result(path):
 
 def descendants(pid):
     """Processes that @p pid started, and theirs."""
-    with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
-        children = [int(child) for child in file.read().split()]
+    try:
+        with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
+            children = [int(child) for child in file.read().split()]
+    except FileNotFoundError:  # it has ended
+        return []
     return children + [d for child in children for d in descendants(child)]
 
 

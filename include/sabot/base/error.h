@@ -18,7 +18,9 @@ enum class ExitCode : int
   bad_input = 1,
   physics_failed = 2,
   interrupted = 3,
-  io_failed = 4
+  io_failed = 4,
+  no_memory = 5,
+  program_fault = 6
 };
 
 /** A row of the reference's page on exit codes. */
@@ -31,7 +33,7 @@ struct ExitCodeMeaning
 /** What each exit code tells scripts that start the program: the program's own
     commands agree on it, so that a study or a shell may act on it without
     reading messages. By number. */
-const std::array<ExitCodeMeaning, 5> &exit_code_meanings();
+const std::array<ExitCodeMeaning, 7> &exit_code_meanings();
 
 /**
  * Bad input, found while reading or checking a scene. @p parameter is the path
@@ -69,6 +71,25 @@ class PhysicsError : public std::runtime_error
  * kept where files are written new and renamed.
  */
 class IOError : public std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/**
+ * A signal asked to stop before there was a state to go on from: during the
+ * set-up. Thrown on all ranks. ExitCode::interrupted.
+ */
+class StoppedEarly : public std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/**
+ * Memory does not suffice; the message names what it was for and what the
+ * process has (within_memory()). Thrown on the rank that met the limit, which
+ * then has to end the others. ExitCode::no_memory.
+ */
+class MemoryError : public std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };

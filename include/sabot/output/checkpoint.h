@@ -1,10 +1,12 @@
 #ifndef sabot_output_checkpoint_h
 #define sabot_output_checkpoint_h
 
+#include "sabot/output/kept_folder.h"
 #include "sabot/output/state_blocks.h"
 
 #include <mpi.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -58,6 +60,9 @@ public:
                     const std::vector<StateBlock> &blocks,
                     const std::string &name = "") const;
 
+  /** What is wrong with the folder now; empty: nothing, or not rank 0. */
+  std::string trouble() const { return kept ? kept->trouble() : ""; }
+
   /** Files of the series, newest first; none where there is no folder. Not
       collective, as the next two. */
   static std::vector<std::string> list(const std::string &folder);
@@ -72,9 +77,13 @@ public:
   static constexpr unsigned int format = 1;
 
 private:
+  /** IOError on all ranks where rank 0 has a @p problem. Collective. */
+  void throw_together(const std::string &problem) const;
+
   const std::string folder;
   MPI_Comm communicator;
   int rank, n_ranks;
+  std::unique_ptr<KeptFolder> kept; // rank 0
 };
 } // namespace sabot
 

@@ -3,6 +3,7 @@
 
 #include "sabot/base/state_visitor.h"
 #include "sabot/output/history.h"
+#include "sabot/output/kept_folder.h"
 
 #include <mpi.h>
 
@@ -33,12 +34,18 @@ class VtuWriter;
 class RunFiles
 {
 public:
-  /** @p folder must exist. Not collective. */
+  /** @p folder must exist when the first file is written. Not collective. */
   RunFiles(const std::string &folder, MPI_Comm communicator);
   ~RunFiles();
 
   const std::string folder;
   const MPI_Comm communicator;
+
+  /** Make the folder where it is missing and see to it that it stays, see
+      KeptFolder. IOError. Rank 0 only. */
+  void keep_folder();
+  /** What is wrong with the folder now; empty: nothing, or not kept. */
+  std::string folder_trouble() const;
 
   /** Tables that the run fills, the same on every rank; in memory until
       write_history(). */
@@ -64,6 +71,7 @@ private:
   /** The tables: names, columns, numbers. */
   void visit_history(StateVisitor &visitor);
 
+  std::unique_ptr<KeptFolder> kept; // rank 0
   std::unique_ptr<VtuWriter> fields;
   unsigned int frame = 0;    // number of the next one
   std::size_t n_written = 0; // rows of all tables in history.h5

@@ -2,9 +2,11 @@
 #define sabot_output_vtu_writer_h
 
 #include "sabot/base/measures.h"
+#include "sabot/output/kept_folder.h"
 
 #include <mpi.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +63,7 @@ private:
   const std::string folder; // of the run
   MPI_Comm communicator;
   int rank, n_ranks;
+  std::unique_ptr<KeptFolder> kept; // of the fields; rank 0
 };
 } // namespace sabot
 

@@ -53,8 +53,8 @@ public:
    * Collective.
    * Per step: propose, choose, advance, update; then, where due, a row of the
    * histories, outputs, the check of the energy balance and a checkpoint.
-   * SIGINT and SIGTERM end it between two steps with a checkpoint
-   * (ExitCode::interrupted). A PhysicsError of any rank ends it with status
+   * Stop signals (stop_signals.h) end it between two steps with a checkpoint
+   * (ExitCode::interrupted), or StoppedEarly the set-up. A PhysicsError of any rank ends it with status
    * "failed", result and last output written, and a checkpoint "failed.h5"
    * where the state is of a whole step. InputError of the set-up and IOError
    * pass through to the caller.
@@ -84,6 +84,12 @@ private:
    * collapse.
    */
   void make_step(const StepProposal &proposal);
+  /**
+   * Whether the folders of run and checkpoints are still there, looked at once
+   * a second by rank 0; true on the others. Where not, the run stops like at a
+   * signal, and saving its state tells what is wrong.
+   */
+  bool keeps_folders();
   /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
   /** Of all bodies, by number. Collective. */
@@ -132,7 +138,7 @@ private:
   double smallest_step = std::numeric_limits<double>::max(); // stable [s]
   std::string limiter;
   unsigned int next_check = 0; // step
-  std::chrono::steady_clock::time_point start_time;
+  std::chrono::steady_clock::time_point start_time, last_look;
   double earlier_seconds = 0.; // wall time before the run was resumed
   bool interrupted = false;
   bool within_step = false; // an error now leaves an unfinished step

@@ -13,6 +13,7 @@ struct Command
 {
   std::vector<std::string> words; // the first is looked up on the PATH
   std::string log;                // file, emptied first
+  int descriptor = -1;            // stays open in the program; -1: none
 };
 
 /** How a process ended: its exit code, or minus the signal that ended it. */
@@ -22,16 +23,28 @@ struct Ended
   int code;            // 0: well
 };
 
+/** When a command is to be started. */
+enum class Turn
+{
+  now,
+  later, // to be asked again
+  never
+};
+
+/** Says whose turn it is and makes the command of that number. */
+using Prepare = std::function<Turn(std::size_t number, Command &command)>;
+
 /**
- * Run commands as processes of their own, up to @p n_processes at a time, in
- * order, and report each end. SIGINT and SIGTERM are passed on to those that
- * run, once; no further ones are started, and those that run are waited for.
- * The processes must not be started from one that uses MPI. IOError when one
- * cannot be started. @return whether all were started and nobody asked to
- * stop.
+ * Run @p n commands as processes of their own, up to @p n_processes at a time,
+ * in order as far as their turns allow, and report each end. Stop signals
+ * (stop_signals.h) end those that run by SIGTERM, once; no further ones are
+ * started, and those that run are waited for. Should this process be killed,
+ * the system sends them SIGTERM. The processes must not be started from one
+ * that uses MPI. IOError when one cannot be started. @return whether all had
+ * their turn and nobody asked to stop.
  */
-bool run_processes(const std::vector<Command> &commands,
-                   const unsigned int n_processes,
+bool run_processes(const std::size_t n, const unsigned int n_processes,
+                   const Prepare &prepare,
                    const std::function<void(const Ended &)> &report);
 
 /** Path of the running program, however it was called (Linux). */

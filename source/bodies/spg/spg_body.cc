@@ -113,7 +113,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   kernel.start(fields, node_exchange);
   fields.kernel_reference_position = nodal_state.position;
   update_functions();
-  failure.judge(bonds, approximation.lost_direction, *residual_strength);
+  failure.judge(approximation.lost_direction, *residual_strength);
   if (options.stores_gradients())
     approximation.set_convex_masses(nodal_state, bonds, node_exchange);
   stable.estimate(parts, *stabilization);
@@ -280,7 +280,7 @@ void SpgBody::update_kernel(const unsigned int step)
   fields.kernel_reference_position = nodal_state.position;
   update_functions();
   stabilization->end_kernel_update(parts, lost_before);
-  failure.judge(bonds, approximation.lost_direction, *residual_strength);
+  failure.judge(approximation.lost_direction, *residual_strength);
   for (std::size_t i = 0; i < n; ++i)
   {
     const bool just_lost = approximation.lost_direction[i] && !lost_before[i];

@@ -122,14 +122,12 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
   return bonds.remove(is_marked);
 }
 
-void BondFailure::judge(const BondList &bonds,
-                        const std::vector<char> &lost_direction,
+void BondFailure::judge(const std::vector<char> &lost_direction,
                         const ResidualStrength &rule)
 {
   for (std::size_t i = 0; i < is_failed.size(); ++i)
     is_failed[i] =
-        rule.has_failed({n_failed[i], bonds.n_bonds(i), bool(lost_direction[i]),
-                         bool(crumbled[i])});
+        rule.has_failed({bool(lost_direction[i]), bool(crumbled[i])});
 }
 
 bool BondFailure::renews_crumbled(MPI_Comm communicator) const

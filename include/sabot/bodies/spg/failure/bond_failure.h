@@ -103,7 +103,7 @@ public:
 
   /** Ask @p rule which particles have failed, into is_failed. @p
       lost_direction [n_owned] as of the last kernel update. Local. */
-  void judge(const BondList &bonds, const std::vector<char> &lost_direction,
+  void judge(const std::vector<char> &lost_direction,
              const ResidualStrength &rule);
 
   /** As a neighbor search needs them, empty where there is none: the global

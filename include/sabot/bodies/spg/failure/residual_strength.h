@@ -3,7 +3,6 @@
 
 #include "sabot/materials/material.h"
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,8 +14,6 @@ class Parameters;
 /** What is known of one particle's damage after a kernel update. */
 struct ParticleDamage
 {
-  std::uint32_t n_failed = 0; // bonds that failed so far
-  std::size_t n_bonds = 0;    // that are left
   /** Its remaining bonds no longer span space, or have not closed yet
       (ParticleApproximation::lost_direction). */
   bool lost_direction = false;
