@@ -3,7 +3,6 @@
 
 #include "sabot/base/error_report.h"
 #include "sabot/base/stop_signals.h"
-#include "sabot/output/file_tools.h"
 #include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/plan.h"
