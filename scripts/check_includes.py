@@ -27,7 +27,7 @@ ALLOWED = {
     "bodies/rigid": {"base", "kernels", "materials", "geometry", "bodies"},
     "bodies/spg": {"base", "kernels", "materials", "geometry", "bodies"},
     "couplings": {"base", "kernels", BODY},
-    "loads": {"base", "kernels", BODY},
+    "loads": {"base", "kernels", BODY, "geometry/face_names.h"},
     "integrator": {"base", "kernels", BODY, COUPLING, LOAD},
     "output": {"base", BODY, COUPLING},
     "simulation": FREE,

@@ -98,17 +98,16 @@ ExitCode run_scene(const Arguments &arguments)
 {
   listen_to_stop_signals();
   const ParameterFile file(arguments.scene, arguments.overrides);
-  return with_scene(file,
-                    [&](Scene &scene)
-                    {
-                      const FolderLock lock(arguments.folder, true,
-                                            MPI_COMM_WORLD);
-                      claim_results_folder(arguments.folder,
-                                           arguments.overwrite, MPI_COMM_WORLD);
-                      return Run(scene, arguments.folder, arguments.quiet,
-                                 MPI_COMM_WORLD)
-                          .execute();
-                    });
+  return with_scene(
+      file,
+      [&](Scene &scene)
+      {
+        const FolderLock lock(arguments.folder, true, MPI_COMM_WORLD);
+        claim_results_folder(arguments.folder, arguments.overwrite,
+                             MPI_COMM_WORLD);
+        return Run(scene, arguments.folder, arguments.quiet, MPI_COMM_WORLD)
+            .execute();
+      });
 }
 
 ExitCode check_scene(const Arguments &arguments)

@@ -32,10 +32,10 @@ struct World
           points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
       body->distribute(body->node_owner, MPI_COMM_WORLD);
     }
-    for (auto &load : loads)
-      load->initialize();
     for (auto c = couplings.rbegin(); c != couplings.rend(); ++c)
       (*c)->initialize();
+    for (auto &load : loads)
+      load->initialize();
   }
   std::vector<Body *> pointers() const
   {
@@ -55,6 +55,15 @@ struct World
     for (const auto &value : values)
       if (!prm.set(value.first, value.second))
         throw InputError(value.first, "cannot be \"" + value.second + "\"");
+    for (auto &body : bodies)
+      if (!body->find_faces) // by their numbers
+        body->find_faces = [](const std::string &, const std::string &text)
+        {
+          std::vector<unsigned int> ids;
+          for (const std::string &id : split_names(text))
+            ids.push_back(std::stoul(id));
+          return ids;
+        };
     const auto body = [this](const std::string &, const std::string &name)
     {
       for (auto &candidate : bodies)

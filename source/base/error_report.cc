@@ -40,7 +40,8 @@ std::string memory_in_words()
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
     return formatted("the process has taken %.3g GB of address space",
                      gigabytes("/proc/self/status", "VmSize")) +
-           formatted(" and may have %.3g GB (ulimit -v)", 1e-9 * limit.rlim_cur);
+           formatted(" and may have %.3g GB (ulimit -v)",
+                     1e-9 * limit.rlim_cur);
   return formatted("the process has %.3g GB",
                    gigabytes("/proc/self/status", "VmRSS")) +
          formatted(", and of the machine's %.3g GB",
@@ -124,9 +125,8 @@ std::string in_one_line(const std::string &what)
 {
   const std::string start = "Additional information:";
   const std::size_t at = what.find(start);
-  std::string text = at == std::string::npos
-                         ? what
-                         : what.substr(at + start.size());
+  std::string text =
+      at == std::string::npos ? what : what.substr(at + start.size());
   text = text.substr(0, text.find("Stacktrace:"));
   std::istringstream words(text);
   std::string line;

@@ -36,7 +36,7 @@ std::pair<Vec, Vec> VelocityConstraints::held_at(const std::size_t i) const
   return {at->free, at->value};
 }
 
-void VelocityConstraints::impose(NodalState &nodes)
+void VelocityConstraints::impose(NodalState &nodes, const double factor)
 {
   const double counts = has_started ? 1. : 0.;
   has_started = true;
@@ -45,7 +45,7 @@ void VelocityConstraints::impose(NodalState &nodes)
     const Held &h = held[k];
     Vec &velocity = nodes.velocity[h.node];
     const Vec before = velocity;
-    velocity = h.free * velocity + h.value;
+    velocity = h.free * velocity + factor * h.value;
     impulse[k] += (counts * nodes.inertia[h.node]) * (velocity - before);
   }
 }
@@ -86,14 +86,15 @@ void VelocityConstraints::visit_state(StateVisitor &visitor)
 }
 
 void VelocityConstraints::accumulate_work(const NodalState &nodes,
-                                          const double half_dt)
+                                          const double half_dt,
+                                          const double factor)
 {
   if (!has_work)
     return;
   for (const Held &h : held)
     // A tied follower is moved by its leaders, whatever is prescribed.
     if (norm_square(h.value) > 0. && !nodes.is_follower(h.node))
-      done.add(-half_dt * dot(nodes.force[h.node], h.value));
+      done.add(-half_dt * dot(nodes.force[h.node], factor * h.value));
 }
 
 void VelocityConstraints::add_kick_energy(const NodalState &nodes,

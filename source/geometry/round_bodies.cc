@@ -85,6 +85,27 @@ public:
               at(q[2], level), at(q[3], level)}});
   }
 
+  /** Keep the half where x is not negative, or the quarter where @p sign y is
+      not, either. Both planes are planes of the mesh, as n is even. */
+  void cut(const unsigned int n_cuts, const double sign)
+  {
+    const double keep[2] = {1., sign};
+    for (unsigned int d = 0; d < n_cuts; ++d)
+      cells.erase(std::remove_if(cells.begin(), cells.end(),
+                                 [&](const dealii::CellData<3> &cell)
+                                 {
+                                   double middle = 0.;
+                                   for (const unsigned int v : cell.vertices)
+                                     middle += points[v][d];
+                                   return keep[d] * middle < 0.;
+                                 }),
+                  cells.end());
+    if (n_cuts == 0)
+      return;
+    dealii::SubCellData none;
+    dealii::GridTools::delete_unused_vertices(points, cells, none);
+  }
+
   void make(dealii::Triangulation<3> &mesh)
   {
     // Right-handed: the lower four vertices change places with the upper.
@@ -162,6 +183,18 @@ private:
   std::map<std::array<int, 4>, unsigned int> number;
 };
 
+/** On the planes of a cut, which go through the middle of the ball, the ids
+    from @p first on. */
+void name_cuts(dealii::Triangulation<3> &mesh, const unsigned int n_cuts,
+               const unsigned int first)
+{
+  for (const auto &face : mesh.active_face_iterators())
+    if (face->at_boundary())
+      for (unsigned int d = 0; d < n_cuts; ++d)
+        if (std::abs(face->center()[d]) < 1e-9 * face->diameter())
+          face->set_boundary_id(first + d);
+}
+
 /** Cells across the core and shells for cells of about @p relative_size; of
     the upper half with @p n_levels of cells below, or of the whole. Throws
     TooManyItems. */
@@ -203,13 +236,15 @@ double nose_volume(const ProjectileSpecification &p)
 } // namespace
 
 HexMesh make_sphere(const double radius, const std::array<double, 3> &center,
-                    const double cell_size)
+                    const double cell_size, const unsigned int n_cuts)
 {
   const auto n = divisions(cell_size / radius, std::nullopt);
   Ball ball(n[0], n[1], false);
+  ball.cut(n_cuts, 1.);
   dealii::Triangulation<3> mesh;
   ball.make(mesh);
-  const double exact = 4. / 3. * pi;
+  name_cuts(mesh, n_cuts, 1);
+  const double exact = 4. / 3. * pi / (1 << n_cuts);
   dealii::GridTools::scale(
       radius * std::cbrt(exact / dealii::GridTools::volume(mesh)), mesh);
   dealii::GridTools::shift(
@@ -232,16 +267,19 @@ HexMesh make_projectile(const ProjectileSpecification &spec)
     p = dealii::Point<3>(p[0] * across, p[1] * across, z * L);
   }
   ball.extrude_equator(n_intervals(shaft, spec.cell_size), -shaft);
+  const double sign = spec.towards_positive ? 1. : -1.;
+  ball.cut(spec.n_cuts, sign);
   dealii::Triangulation<3> mesh;
   ball.make(mesh);
-  const double across = std::sqrt((pi * R * R * shaft + nose_volume(spec)) /
-                                  dealii::GridTools::volume(mesh));
+  const double across =
+      std::sqrt((pi * R * R * shaft + nose_volume(spec)) / (1 << spec.n_cuts) /
+                dealii::GridTools::volume(mesh));
   for (const auto &face : mesh.active_face_iterators())
     if (face->at_boundary())
       face->set_boundary_id(face->center()[2] < -shaft * (1. - 1e-9) ? 0 : 1);
+  name_cuts(mesh, spec.n_cuts, 2);
   // A cyclic permutation of the axes keeps cells right-handed; so does turning
   // the nose round by half a turn.
-  const double sign = spec.towards_positive ? 1. : -1.;
   dealii::GridTools::transform(
       [&](const dealii::Point<3> &p)
       {

@@ -15,11 +15,12 @@ class Gravity : public Load
 public:
   Gravity(const LoadRequest &request, std::vector<Body *> bodies)
       : Load(request.name), bodies(std::move(bodies)),
-        course(TimeCourse::make(request))
+        course(TimeCourse::make(request)), communicator(request.communicator)
   {
     const auto a = get_vector(request.prm, "Acceleration");
     acceleration = vec(a[0], a[1], a[2]);
   }
+  std::string type() const override { return "gravity"; }
   void initialize() override
   {
     for (Body *const body : bodies)
@@ -50,6 +51,21 @@ public:
     for (const NodalForces &weight : weights)
       weight.add_energies(ledger);
   }
+  double total_work() const override
+  {
+    ExactSum work;
+    for (const NodalForces &weight : weights)
+      work.add(weight.total_work());
+    ExactSum::reduce({&work}, communicator);
+    return work.value();
+  }
+  std::vector<Resultant> resultants() const override
+  {
+    std::vector<Resultant> all;
+    for (const NodalForces &weight : weights)
+      all.push_back(weight.resultant(name, communicator));
+    return all;
+  }
   void visit_state(StateVisitor &visitor) override
   {
     for (NodalForces &weight : weights)
@@ -59,6 +75,7 @@ public:
 private:
   const std::vector<Body *> bodies;
   const std::unique_ptr<TimeCourse> course;
+  MPI_Comm communicator;
   Vec acceleration; // [m/s^2]
   std::vector<NodalForces> weights;
 };

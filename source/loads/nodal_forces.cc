@@ -5,7 +5,7 @@ namespace sabot
 {
 NodalForces::NodalForces(Body &body, std::vector<std::size_t> some_nodes)
     : body(body), nodes(std::move(some_nodes)), force(nodes.size(), Vec{}),
-      work(nodes.size(), 0.)
+      work(nodes.size(), 0.), impulse(nodes.size(), Vec{})
 {
 }
 
@@ -20,18 +20,42 @@ void NodalForces::accumulate_work(const double half_dt)
 {
   const NodalState &state = body.nodes();
   for (std::size_t k = 0; k < nodes.size(); ++k)
+  {
     work[k] += half_dt * dot(force[k], state.velocity[nodes[k]]);
+    impulse[k] += half_dt * force[k];
+  }
 }
 
 void NodalForces::add_energies(EnergyLedger &ledger) const
 {
+  ledger.external.add(total_work());
+}
+
+ExactSum NodalForces::total_work() const
+{
+  ExactSum sum;
   for (const double w : work)
-    ledger.external.add(w);
+    sum.add(w);
+  return sum;
+}
+
+Resultant NodalForces::resultant(const std::string &name,
+                                 MPI_Comm communicator) const
+{
+  ExactVectorSum now, total;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+  {
+    now.add(force[k]);
+    total.add(impulse[k]);
+  }
+  ExactVectorSum::reduce({&now, &total}, communicator);
+  return {name, body.id, now.value(), total.value(), true};
 }
 
 void NodalForces::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("force of " + body.name, force);
   visitor.visit_array("work on " + body.name, work);
+  visitor.visit_array("impulse on " + body.name, impulse);
 }
 } // namespace sabot

@@ -41,10 +41,9 @@ bool RunFiles::write_fields(const double time,
   std::vector<std::string> names;
   for (const Body *const body : bodies)
   {
-    within_memory("the fields of body \"" + body->name + "\"",
-                  [&]() {
-                    fields->write_body(body->name, body->output_mesh(), frame);
-                  });
+    within_memory(
+        "the fields of body \"" + body->name + "\"",
+        [&]() { fields->write_body(body->name, body->output_mesh(), frame); });
     names.push_back(body->name);
   }
   fields->add_time(time, frame, names);

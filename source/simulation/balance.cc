@@ -47,6 +47,8 @@ double EnergyBalance::total_energy(const double dt)
   ExactSum kick;
   for (const auto &body : scene.bodies)
     body->add_kick_energy(dt, kick);
+  for (const auto &load : scene.loads)
+    load->take_kick_energy(dt, kick);
   ExactSum::reduce({&kick}, communicator);
   return total - kick.value();
 }

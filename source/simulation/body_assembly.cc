@@ -33,12 +33,33 @@ std::unique_ptr<BodyShape> BodyAssembly::shape_of(const std::string &body) const
 void BodyAssembly::build(const std::vector<std::string> &names)
 {
   find_carvings(names);
+  find_postures(names);
   within_memory("meshes with zones", [&]() { carve_meshes(); });
   for (const std::string &name : names)
     within_memory("body \"" + name + "\"",
                   [&]() { bodies.push_back(make_body(name, bodies.size())); });
   for (const Carving &carving : carvings)
     zones.push_back(record(carving));
+}
+
+void BodyAssembly::find_postures(const std::vector<std::string> &names)
+{
+  for (const std::string &name : names)
+  {
+    const EnteredSubsection entered(prm, "Bodies", name);
+    Posture &posture = postures[name];
+    posture.turn = Turn::parse(prm, "Bodies/" + name);
+    posture.axis = posture.turn.direction(shape_of(name)->axis(prm));
+  }
+  for (const Carving &carving : carvings)
+  {
+    if (!postures[carving.zone].turn.is_none())
+      throw InputError("Bodies/" + carving.zone + "/Rotation angle",
+                       "a zone turns with the body \"" + carving.body +
+                           "\" that it is carved from; turn that one and place "
+                           "the zone in it as it is before");
+    postures[carving.zone] = postures[carving.body];
+  }
 }
 
 void BodyAssembly::find_carvings(const std::vector<std::string> &names)
@@ -196,18 +217,35 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
       std::find_if(carvings.begin(), carvings.end(),
                    [&](const Carving &c) { return c.body == name; });
   const auto shape = shape_of(name);
+  const Posture &posture = postures.at(name);
   const auto mesh = [&](const double size)
   {
     NamedMesh made =
         make_mesh(path, size, carving == carvings.end() ? nullptr : &*carving);
+    posture.turn.apply(made.mesh);
     name_planes_of(path, made);
     return made;
   };
-  BodyRequest request{prm,    file, path,        name, id, material->second,
-                      *shape, mesh, std::nullopt};
+  std::array<double, 3> velocity = get_vector(prm, "Initial velocity");
+  const double speed = get_quantity(prm, "Initial speed");
+  for (int d = 0; d < 3; ++d)
+    velocity[d] += speed * posture.axis[d];
+  BodyRequest request{prm,
+                      file,
+                      path,
+                      name,
+                      id,
+                      material->second,
+                      *shape,
+                      posture.turn,
+                      velocity,
+                      mesh,
+                      [&](NamedMesh &faces) { name_planes_of(path, faces); },
+                      std::nullopt};
   const auto made = cells.find(name);
   if (made != cells.end())
   {
+    posture.turn.apply(made->second.mesh);
     name_planes_of(path, made->second);
     request.cells = std::move(made->second);
   }
@@ -228,16 +266,20 @@ CarvedZone BodyAssembly::record(const Carving &carving) const
   zone.zone = number(carving.zone);
   zone.host = number(carving.body);
   zone.shape = carving.shape;
+  zone.turn = postures.at(carving.body).turn;
   constexpr double far = std::numeric_limits<double>::max();
   zone.host_low.fill(far);
   zone.host_high.fill(-far);
   for (const int b : {zone.zone, zone.host})
-    for (const auto &x : bodies[b]->partition_points())
+    for (const auto &place : bodies[b]->partition_points())
+    {
+      const auto x = zone.turn.origin(place);
       for (int d = 0; d < 3; ++d)
       {
         zone.host_low[d] = std::min(zone.host_low[d], x[d]);
         zone.host_high[d] = std::max(zone.host_high[d], x[d]);
       }
+    }
   const auto size = cell_size.find(carving.zone);
   if (size != cell_size.end())
     zone.spacing.fill(size->second);

@@ -185,6 +185,18 @@ void add_couplings(const Scene &scene, ordered_json &r)
   r["couplings"] = couplings;
 }
 
+/** What each load did; nothing for a scene without. Collective. */
+void add_loads(const Scene &scene, ordered_json &r)
+{
+  for (const auto &load : scene.loads)
+  {
+    ordered_json &entry = r["loads"][load->name];
+    entry["type"] = load->type();
+    entry["work"] = number(load->total_work());
+    add_resultants(load->resultants(), scene, entry);
+  }
+}
+
 /** Processor time and memory of all ranks. */
 void add_resources(ordered_json &r, MPI_Comm communicator)
 {
@@ -240,6 +252,7 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
       r["energy"][m.name] = number(m.value);
   r["timers"] = timer_results(scene, timers, summary.n_ranks);
   add_couplings(scene, r);
+  add_loads(scene, r);
   r["zone"] = zone_results(zones);
   r["knobs"] = ordered_json::object();
   for (const auto &[path, value] : scene.knobs())

@@ -283,9 +283,7 @@ void Scene::distribute()
                       body->item_name() + ")",
                   [&]() { body->distribute(body->node_owner, communicator); });
   }
-  for (const auto &load : loads)
-    load->initialize();
-  // Ties first: contact wants to know who follows whom.
+  // Ties first: contact and loads want to know who follows whom.
   for (auto coupling = couplings.rbegin(); coupling != couplings.rend();
        ++coupling)
   {
@@ -293,6 +291,8 @@ void Scene::distribute()
     const std::vector<std::string> odd = (*coupling)->warnings();
     warnings.insert(warnings.end(), odd.begin(), odd.end());
   }
+  for (const auto &load : loads)
+    load->initialize();
   for (const auto &quantity : quantities)
     quantity->check([this](const std::string &table)
                     { return columns_of(table); });
@@ -336,6 +336,8 @@ std::vector<Resultant> Scene::resultants() const
   { all.insert(all.end(), some.begin(), some.end()); };
   for (const auto &body : bodies)
     take(body->reactions());
+  for (const auto &load : loads)
+    take(load->resultants());
   for (const auto &coupling : couplings)
     take(coupling->resultants());
   return all;

@@ -70,6 +70,13 @@ void declare_body(Parameters &prm, const std::string &discretization,
   prm.declare_entry("Initial velocity", "0 m/s, 0 m/s, 0 m/s",
                     quantities(Dimension::velocity, 3, 3, -1e5, 1e5),
                     "Velocity at time 0, less than 100 km/s per component.");
+  prm.declare_entry("Initial speed", "0 m/s",
+                    quantity(Dimension::velocity, -1e5, 1e5),
+                    "Speed at time 0 along the axis of the body, which turns "
+                    "with it; adds to \"Initial velocity\". The axis is the "
+                    "cylinder's, that of the projectile towards its nose, z of "
+                    "other shapes.");
+  Turn::declare(prm);
   Registry<BodyShape>::declare_entries(prm, geometry);
   // Of a shape that there is not reading the file will tell.
   const auto *const chosen = Registry<BodyShape>::find(geometry);

@@ -27,8 +27,9 @@ struct Reach
   double radius = 0.; // from the axis of a cylinder
   Point low{{nowhere, nowhere, nowhere}}, high{{-nowhere, -nowhere, -nowhere}};
 
-  void add(const ZoneBox &box, const Point &x)
+  void add(const ZoneBox &box, const Point &place)
   {
+    const Point x = box.turn.origin(place);
     if (box.axis)
       radius = std::max(radius, box.radius_of(x));
     distance = std::min(distance, box.distance_from_tie(x));
@@ -127,6 +128,7 @@ std::vector<ZoneBox> find_zones(const Scene &scene)
     ZoneBox zone;
     zone.zone = carved.zone;
     zone.host = carved.host;
+    zone.turn = carved.turn;
     zone.axis = carved.shape.axis;
     zone.spacing = carved.spacing;
     bool side = false; // of a cylinder, which a sector may have cut

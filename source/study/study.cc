@@ -131,9 +131,9 @@ struct Plan
   {
     const StudyRun *run;
     std::string folder;
-    fs::file_time_type result_time;  // when it was planned
-    std::unique_ptr<FileLock> lock;  // while it runs
-    bool waits = false;              // another study has it
+    fs::file_time_type result_time; // when it was planned
+    std::unique_ptr<FileLock> lock; // while it runs
+    bool waits = false;             // another study has it
   };
   std::string build;
   std::vector<Item> items;     // to be started

@@ -1151,6 +1151,113 @@ class Scenes(unittest.TestCase):
             with open(os.path.join(name, "log.txt")) as file:
                 self.assertIn("resumed at step", file.read())
 
+    def test_loads_on_1_2_and_3_ranks_and_resumed(self):
+        scene = os.path.join(SOURCE, "tests/scenes/loads.prm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("loads%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        # All of it has happened: cells are gone, bonds broken, work done.
+        self.assertGreater(r["bodies"]["plate"]["eroded_cells"], 0)
+        self.assertGreater(r["bodies"]["zone"]["bonds_broken_fraction"], 0.)
+        for load in ("weight", "blast", "pull"):
+            self.assertNotEqual(r["loads"][load]["work"], 0.)
+        self.assertGreater(r["energy"]["external"], 1e-3)
+        # The pressure is there at once: off in the first steps, not later.
+        self.assertLess(r["energy_residual_max"], 0.05)
+        self.assertLess(abs(r["energy"]["total"]),
+                        2e-3 * r["energy"]["external"])
+        self.assertAlmostEqual(r["bodies"]["block"]["velocity"][2], 150.,
+                               delta=1e-9)
+        weight = r["loads"]["weight"]
+        mass = 2700 * (12e-3 * 12e-3 * 3e-3 + 4e-3 ** 3)
+        force = sum(part["force"][2] for part in weight["resultants"])
+        self.assertAlmostEqual(force, -50e3 * mass, delta=1e-9 * 50e3 * mass)
+        self.assertLess(r["momentum_residual_max"], 1e-9)
+        for ranks in (1, 2):
+            parted = folder("loads-parts%d" % ranks)
+            done = sabot("run", scene, "-o", parted, "--quiet", "--set",
+                         "Checkpoint interval in steps=%d"
+                         % int(0.55 * r["steps"]), ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            os.remove(os.path.join(parted, "history.h5"))
+            done = sabot("resume", parted, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(parted, "history.h5"), "rb") as file:
+                self.assertEqual(file.read(), histories[0])
+
+    def test_bad_loads_name_their_entry(self):
+        scene = os.path.join(SOURCE, "tests/scenes/loads.prm")
+        for setting, words in (
+                ("Loads/blast/Faces=top", ("Loads/blast/Faces", "top", "+z")),
+                ("Loads/blast/Body=zona", ("Loads/blast/Body", "zone")),
+                ("Loads/blast/Expression=exp(", ("Expression", "formula")),
+                ("Loads/blast/Times=0 us, 1 us", ("Times", "no effect")),
+                ("Loads/pull/Factors=0, 1", ("Factors", "3 times")),
+                ("Loads/pull/Times=0 us, 8 us, 6 us", ("Times", "later")),
+                ("Loads/push/Faces=+z", ("Loads/push/Faces", "rigid")),
+                ("Loads/push/Body=plate", ("Angular velocity", "rigid")),
+                ("Loads/weight/Acceleration=0, 0, 9.81 m/s",
+                 ("Acceleration", "m/s^2")),
+                ("Bodies/zone/Rotation angle=25 deg", ("zone", "plate"))):
+            done = sabot("check", scene, "--set", setting)
+            self.assertEqual(done.returncode, 1, setting + done.stdout)
+            self.assertEqual(done.stdout.count("\n"), 1, done.stdout)
+            for word in words:
+                self.assertIn(word, done.stdout)
+        # Clamped and moved at the same time.
+        done = sabot("check", scene, "--set", "Loads/push/Body=plate", "--set",
+                     "Loads/push/Angular velocity=0, 0, 0", "--set",
+                     "Loads/push/Faces=-x")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("clamped", done.stdout)
+
+    def test_a_scene_turned_by_a_right_angle_is_the_same(self):
+        scene = os.path.join(SOURCE, "tests/scenes/turned.prm")
+        results = []
+        for name, settings in (
+                ("upright", ()),
+                ("turned", ("Bodies/plate/Rotation axis=1, 0, 0",
+                            "Bodies/plate/Rotation angle=90 deg",
+                            "Bodies/rod/Yaw pitch roll=0 deg, 0 deg, 90 deg",
+                            "Loads/weight/Acceleration=0, 20 km/s^2, 0"))):
+            out = folder(name)
+            done = sabot("run", scene, "-o", out, "--quiet",
+                         *(word for s in settings for word in ("--set", s)))
+            self.assertEqual(done.returncode, 0, done.stdout)
+            results.append(result(out))
+            self.assertLess(results[-1]["energy_residual_max"], 0.01)
+        upright, turned = results
+        self.assertEqual(upright["steps"], turned["steps"])
+        for body in ("plate", "zone", "rod"):
+            a, b = (r["bodies"][body] for r in results)
+            x, y, z = a["velocity"]
+            for expected, got in zip((x, -z, y), b["velocity"]):
+                self.assertAlmostEqual(expected, got, delta=1e-6)
+            self.assertAlmostEqual(a["internal_energy"], b["internal_energy"],
+                                   delta=1e-6 * a["internal_energy"])
+            self.assertEqual(a["mass"], b["mass"])
+        self.assertGreater(upright["bodies"]["zone"]["plastic_strain_max"],
+                           0.05)
+        self.assertEqual(upright["zone"]["zone"]["particles"],
+                         turned["zone"]["zone"]["particles"])
+        for key in ("plastic_strain_over_0.01", "broken_bonds"):
+            self.assertAlmostEqual(
+                upright["zone"]["zone"][key]["distance_from_tie_in_spacings"]
+                or 0., turned["zone"]["zone"][key][
+                    "distance_from_tie_in_spacings"] or 0., delta=1e-6)
+        # A plane of symmetry that does not stay one is refused.
+        done = sabot("check", scene, "--set", "Bodies/plate/Rotation axis=0, 0, 1",
+                     "--set", "Bodies/plate/Rotation angle=10 deg")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("Symmetry faces", done.stdout)
+
     def test_an_unwritable_folder_is_an_io_error(self):
         done = sabot("run", BAR, "-o", "/proc/results")
         self.assertEqual(done.returncode, 4, done.stdout)

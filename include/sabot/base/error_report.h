@@ -22,9 +22,9 @@ int report_errors(const bool uses_mpi, const std::function<ExitCode()> &work);
 std::string in_one_line(const std::string &what);
 
 /**
- * Do @p work; where memory does not suffice, a MemoryError that names @p what it
- * was for ("body \"plate\""), how much the process has and what limits it. The
- * innermost name counts. Costs nothing where all goes well.
+ * Do @p work; where memory does not suffice, a MemoryError that names @p what
+ * it was for ("body \"plate\""), how much the process has and what limits it.
+ * The innermost name counts. Costs nothing where all goes well.
  */
 void within_memory(const std::string &what, const std::function<void()> &work);
 } // namespace sabot

@@ -13,6 +13,7 @@
 #include <mpi.h>
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -59,6 +60,21 @@ struct ContactSurface
   std::vector<SymmetryPlane> symmetry_planes; // the same on every rank
   double bulk_modulus = 0.;                   // [Pa], for the penalty
   double spacing = 0.;                        // [m], typical node distance
+};
+
+/** Faces that bear a load, on this rank; of bodies of cells faces, of particles
+    their shares in the areas. Planes of symmetry are none. */
+struct LoadedSurface
+{
+  /** Local nodes, all around every owned node, outward normal by the right-hand
+      rule, ascending by their numbers in the body. */
+  std::vector<std::array<std::size_t, 4>> faces;
+  struct Share
+  {
+    std::size_t node; // owned
+    Vec area;         // outward, at the start [m^2]
+  };
+  std::vector<Share> shares; // ascending by node
 };
 
 /** A node of a body without faces, as part of its surface. */
@@ -134,6 +150,31 @@ public:
   virtual bool deform() const = 0;
 };
 
+/** View of a body whose faces may bear loads, or that may be moved from
+   outside. All functions are local to a rank. */
+class LoadView
+{
+public:
+  virtual ~LoadView() = default;
+  /** These faces, by their boundary ids, will be asked for by
+      loaded_surface(). Before distribute(). */
+  virtual void keep_faces(const std::vector<unsigned int> & /*ids*/) {}
+  /** The faces with these boundary ids that are left, on this rank; those that
+      erosion opens are none of them. Changes with contact_surface_version(). */
+  virtual LoadedSurface
+  loaded_surface(const std::vector<unsigned int> &ids) const = 0;
+  /** From now on its motion is the one of move_rigidly(); false for a body that
+      deforms. Before distribute(). */
+  virtual bool prescribe_rigid_motion() { return false; }
+  /** Velocity of the center of mass [m/s] and rotation per time [1/s] from now
+      on. @p is_start: the change is no impulse. */
+  virtual void move_rigidly(const Vec /*velocity*/,
+                            const Vec /*angular_velocity*/,
+                            const bool /*is_start*/)
+  {
+  }
+};
+
 /** View of a body of particles, which has a surface without faces and whose
     parts may come loose. All functions are local to a rank. */
 class ParticleView
@@ -144,6 +185,10 @@ public:
   virtual SurfacePoint surface_point(const std::size_t i) const = 0;
   /** Owned node @p i as part of a volume without cells, now. */
   virtual VolumePoint volume_point(const std::size_t i) const = 0;
+  /** What has become of an @p area [m^2] of the start at owned node @p i, by
+      its deformation gradient: det F F^-T A (Nanson). Zero for what lost a
+      direction and has no shape any more. */
+  virtual Vec present_area(const std::size_t i, const Vec area) const = 0;
   /** What has come loose; empty for a body whose parts never do. */
   virtual DebrisView debris() const = 0;
   /** Whether owned node @p i is still bonded to node @p j (global). */
@@ -199,6 +244,13 @@ public:
   /** Owner rank of every node in global order, the same on every rank; set by
       whoever calls distribute(). */
   std::vector<int> node_owner;
+
+  /** Boundary ids of the faces that the entry @p path names in @p text;
+      InputError for names that the body does not have. Set by whoever made the
+      body from a shape. */
+  std::function<std::vector<unsigned int>(const std::string &path,
+                                          const std::string &text)>
+      find_faces;
 
   NodalState &nodes() { return nodal_state; }
   const NodalState &nodes() const { return nodal_state; }
@@ -272,6 +324,7 @@ public:
   virtual const FaceView *faces() const { return nullptr; }
   virtual const ParticleView *particles() const { return nullptr; }
   virtual const FragmentView *fragments() const { return nullptr; }
+  virtual LoadView *loadable() { return nullptr; }
   /** Whether nodes move by their own forces, so that a tie may lead them; not
       those of a rigid body. */
   virtual bool moves_node_by_node() const { return true; }

@@ -5,6 +5,7 @@
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body.h"
 #include "sabot/geometry/shape.h"
+#include "sabot/geometry/turn.h"
 
 #include <functional>
 #include <memory>
@@ -25,11 +26,17 @@ struct BodyRequest
   int id;                 // number among the bodies
   std::shared_ptr<const Material> material;
   const BodyShape &shape;
-  /** Checked mesh of the shape with about this cell size [m], around the zone
-      that another body takes from it, if any. */
+  /** How the body is turned: for what is not made by mesh(). */
+  const Turn &turn;
+  std::array<double, 3> initial_velocity; // [m/s]
+  /** Checked and turned mesh of the shape with about this cell size [m], around
+      the zone that another body takes from it, if any. */
   std::function<NamedMesh(const double cell_size)> mesh;
-  /** Cells that exist already: those of a zone that follows the mesh of another
-      body, or what such a zone has left of this one. */
+  /** Makes the planes known that the scene's lists of faces of this body have
+      among their names, for faces that are not mesh()'s. */
+  std::function<void(NamedMesh &)> name_planes;
+  /** Turned cells that exist already: those of a zone that follows the mesh of
+     another body, or what such a zone has left of this one. */
   std::optional<NamedMesh> cells;
 };
 
@@ -73,6 +80,19 @@ public:
   {
   }
 };
+
+/** Body::find_faces of a body with these names of faces. */
+inline std::function<std::vector<unsigned int>(const std::string &path,
+                                               const std::string &text)>
+face_finder(const NamedMesh &made)
+{
+  NamedMesh names; // without the mesh
+  names.faces = made.faces;
+  names.groups = made.groups;
+  names.unusable = made.unusable;
+  return [names](const std::string &path, const std::string &text)
+  { return find_face_ids(path, text, names); };
+}
 
 /** The names of a shape's faces in words, and that planes are names, too; empty
     where there is no shape. */

@@ -48,13 +48,15 @@ public:
   std::pair<Vec, Vec> held_at(const std::size_t i) const;
 
   /** Set the held components of the velocity; the others stay. v := free * v
-      + value by component, the same bits wherever the node is owned. The
-      first call makes the start of the run: what it changes is no impulse. */
-  void impose(NodalState &nodes);
+      + factor value by component, the same bits wherever the node is owned.
+      @p factor: by which all values are multiplied now. The first call makes
+      the start of the run: what it changes is no impulse. */
+  void impose(NodalState &nodes, const double factor = 1.);
   /** Work along @p half_dt with the current forces; collective with nobody.
       -dt/2 f . v_prescribed [J]; tied followers, which have no inertia of
       their own, are moved by their leaders and do not count. */
-  void accumulate_work(const NodalState &nodes, const double half_dt);
+  void accumulate_work(const NodalState &nodes, const double half_dt,
+                       const double factor = 1.);
   /** Reactions on the nodes of body number @p body, one for each of @p kinds,
       which must be the same on every rank. Followers' velocities are their
       leaders'. Collective. */

@@ -40,9 +40,10 @@ struct ParticleCloud
       it is none. */
   std::vector<std::optional<int>> face_axis{0, 0, 1, 1, 2, 2};
   /**
-   * Size and directions of the lattice around each particle [m]: the symmetric
-   * matrix S that maps the unit ball to the ellipsoid through the neighbors a
-   * cell away. Empty: diag(spacing) for all.
+   * Size and directions of the lattice around each particle [m]: the matrix S
+   * that maps the unit ball to the ellipsoid through the neighbors a cell away.
+   * Symmetric, but R S where the body was turned by R. Empty: diag(spacing) for
+   * all.
    */
   AlignedVector<Mat> shape;
 };

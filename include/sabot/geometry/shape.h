@@ -65,6 +65,10 @@ public:
    */
   virtual NamedMesh mesh(const ShapeRequest &request) const = 0;
 
+  /** The direction along which the body is speeded by "Initial speed", before
+      it is turned: of unit length. */
+  virtual Vec axis(const Parameters &) const { return vec(0., 0., 1.); }
+
   /** Whether the shape is all of the box around it, so that where such boxes
       overlap, shapes do. */
   virtual bool fills_bounds() const { return false; }

@@ -3,6 +3,7 @@
 
 #include "sabot/base/ledger.h"
 #include "sabot/base/registry.h"
+#include "sabot/base/resultant.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body.h"
 
@@ -57,7 +58,11 @@ public:
 
   const std::string name; // in the scene
 
-  /** Once, after the bodies were distributed and before couplings start. Throws
+  /** Its kind in results. */
+  virtual std::string type() const = 0;
+
+  /** Once, after the bodies were distributed and the couplings have started, so
+      that it is known which nodes ties move. Throws
       InputError, on all ranks, where a body cannot bear it. Collective. */
   virtual void initialize() = 0;
   /** Velocities of owned nodes that it prescribes. @p begin and @p end [s]: the
@@ -74,6 +79,16 @@ public:
   virtual void accumulate_work(const double half_dt) = 0;
   /** Add this rank's share of the work done so far [J]. Local. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;
+  /** Take off what Body::add_kick_energy() counts of kicks that the load
+      undoes: of components whose velocity it prescribes. Local. */
+  virtual void take_kick_energy(const double /*dt*/, ExactSum & /*sum*/) const
+  {
+  }
+  /** For results: the work so far [J]. Collective, same on all ranks. */
+  virtual double total_work() const = 0;
+  /** Its force on each of its bodies now and the impulse so far; nothing where
+      the body tells by itself. Collective, same on all ranks. */
+  virtual std::vector<Resultant> resultants() const { return {}; }
   /** Everything that a restart needs and initialize() does not find. */
   virtual void visit_state(StateVisitor &visitor) = 0;
 };

@@ -2,10 +2,12 @@
 #define sabot_loads_nodal_forces_h
 
 #include "sabot/base/ledger.h"
+#include "sabot/base/resultant.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace sabot
@@ -14,7 +16,7 @@ namespace sabot
  * Forces of a load on some owned nodes of one body, and the work that they do.
  * The forces are kept, as those of the last step do work along the first half
  * of the next one. Work is summed per node, so that it costs little and is the
- * same on any number of ranks. No function is collective.
+ * same on any number of ranks. No function is collective but for resultant().
  */
 class NodalForces
 {
@@ -29,13 +31,19 @@ public:
   /** Work done so far [J], of owned nodes. */
   void add_energies(EnergyLedger &ledger) const;
   void visit_state(StateVisitor &visitor);
+  /** Work so far, of owned nodes [J]. */
+  ExactSum total_work() const;
+  /** Their sum and that of their impulses, as of the load @p name.
+      Collective. */
+  Resultant resultant(const std::string &name, MPI_Comm communicator) const;
 
   Body &body;
   const std::vector<std::size_t> nodes;
   AlignedVector<Vec> force; // [N], parallel to nodes
 
 private:
-  std::vector<double> work; // [J], parallel to nodes
+  std::vector<double> work;   // [J], parallel to nodes
+  AlignedVector<Vec> impulse; // [N s], parallel to nodes
 };
 } // namespace sabot
 

@@ -39,6 +39,11 @@ public:
 
 private:
   /**
+   * How bodies are turned, and where their axes point then.
+   * InputError for a zone that is turned by itself: it turns with its host.
+   */
+  void find_postures(const std::vector<std::string> &names);
+  /**
    * Zones by their hosts.
    * Fills `carvings` from the entries "Carve from".
    */
@@ -80,6 +85,12 @@ private:
   Parameters &prm;
   const ParameterFile &file;
   const Materials &materials;
+  struct Posture
+  {
+    Turn turn;
+    Vec axis; // turned, of unit length
+  };
+  std::map<std::string, Posture> postures; // by body
   std::vector<Carving> carvings;
   std::map<std::string, NamedMesh> cells;  // made already, by body
   std::map<std::string, double> cell_size; // by zone that follows a mesh [m]

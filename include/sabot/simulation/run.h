@@ -54,10 +54,10 @@ public:
    * Per step: propose, choose, advance, update; then, where due, a row of the
    * histories, outputs, the check of the energy balance and a checkpoint.
    * Stop signals (stop_signals.h) end it between two steps with a checkpoint
-   * (ExitCode::interrupted), or StoppedEarly the set-up. A PhysicsError of any rank ends it with status
-   * "failed", result and last output written, and a checkpoint "failed.h5"
-   * where the state is of a whole step. InputError of the set-up and IOError
-   * pass through to the caller.
+   * (ExitCode::interrupted), or StoppedEarly the set-up. A PhysicsError of any
+   * rank ends it with status "failed", result and last output written, and a
+   * checkpoint "failed.h5" where the state is of a whole step. InputError of
+   * the set-up and IOError pass through to the caller.
    */
   ExitCode execute(const std::string &checkpoint = "");
 

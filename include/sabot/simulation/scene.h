@@ -5,6 +5,7 @@
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/geometry/carving.h"
+#include "sabot/geometry/turn.h"
 #include "sabot/loads/load.h"
 #include "sabot/materials/material.h"
 #include "sabot/output/output.h"
@@ -38,13 +39,14 @@ struct RunSettings
 /**
  * A part of a FEM body in whose place there are particles.
  * Bodies by their numbers in Scene::bodies. Lengths are of the reference
- * configuration; the bounds are those of nodes and particles of host and zone
- * together, the host's as a whole.
+ * configuration before the two are turned; the bounds are those of nodes and
+ * particles of host and zone together, the host's as a whole.
  */
 struct CarvedZone
 {
   int zone, host;                            // bodies
   ZoneShape shape;                           // may reach beyond the host
+  Turn turn;                                 // of both
   std::array<double, 3> spacing;             // of the particles [m]
   std::array<double, 3> host_low, host_high; // bounds before carving [m]
 };

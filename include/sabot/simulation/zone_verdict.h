@@ -21,6 +21,7 @@ namespace sabot
 struct ZoneBox
 {
   int zone, host; // bodies
+  Turn turn;      // of both; what follows is as before it
   std::array<double, 3> low, high, spacing;
   std::array<bool, 3> tied_low, tied_high;
   /** Of a cylinder with the bounds low, high; nothing: a box. */

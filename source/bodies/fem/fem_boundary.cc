@@ -92,6 +92,7 @@ void FemBoundary::set_up(
     {
       faces.push_back(face);
       face_id.push_back(f);
+      id_of_face.emplace_back(f, id);
     }
   }
   typical_spacing = std::sqrt(total_area / mesh.boundary_faces.size());
@@ -143,6 +144,25 @@ ContactSurface FemBoundary::surface(const std::size_t n_owned,
   surface.bulk_modulus = bulk_modulus;
   surface.spacing = typical_spacing;
   surface.symmetry_planes = symmetry_planes;
+  return surface;
+}
+
+LoadedSurface
+FemBoundary::loaded_surface(const std::vector<unsigned int> &ids) const
+{
+  std::vector<std::pair<GlobalIndex, std::size_t>> found; // number, local
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    const auto at = std::lower_bound(id_of_face.begin(), id_of_face.end(),
+                                     std::make_pair(face_id[f], 0u));
+    if (at != id_of_face.end() && at->first == face_id[f] &&
+        contains(ids, at->second))
+      found.emplace_back(face_id[f], f);
+  }
+  std::sort(found.begin(), found.end());
+  LoadedSurface surface;
+  for (const auto &[number, f] : found)
+    surface.faces.push_back(faces[f]);
   return surface;
 }
 

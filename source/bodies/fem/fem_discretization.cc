@@ -10,21 +10,13 @@ namespace sabot
 {
 namespace
 {
-/** Edge of as many cubes that fill the bounds of the mesh: of a mesh from a
-    file nobody has told it [m]. */
+/** Edge of a cube of the mean volume of the cells: of a mesh from a file nobody
+    has told it [m]. */
 double typical_cell_size(const HexMesh &mesh)
 {
-  double volume = 1.;
-  for (int d = 0; d < 3; ++d)
-  {
-    double low = mesh.nodes[0][d], high = low;
-    for (const auto &x : mesh.nodes)
-    {
-      low = std::min(low, x[d]);
-      high = std::max(high, x[d]);
-    }
-    volume *= high - low;
-  }
+  double volume = 0.;
+  for (const double v : mesh.volume)
+    volume += v;
   return std::cbrt(volume / mesh.cells.size());
 }
 
@@ -64,7 +56,7 @@ public:
     NamedMesh made = request.cells ? std::move(*request.cells)
                                    : request.mesh(cell_size(prm));
     FemOptions options = FemOptions::parse(prm);
-    options.initial_velocity = get_vector(prm, "Initial velocity");
+    options.initial_velocity = request.initial_velocity;
     options.cell_size = request.shape.follows_cell_size()
                             ? cell_size(prm)
                             : typical_cell_size(made.mesh);
@@ -79,9 +71,11 @@ public:
          face_ids(request.path + "/Prescribed components",
                   prm.get("Prescribed components"), {"x", "y", "z"}))
       options.driven_components[axis] = true;
-    return std::make_unique<FemBody>(request.name, request.id,
-                                     std::move(made.mesh),
-                                     std::move(request.material), options);
+    auto body = std::make_unique<FemBody>(request.name, request.id,
+                                          std::move(made.mesh),
+                                          std::move(request.material), options);
+    body->find_faces = face_finder(made);
+    return body;
   }
 
   bool may_be_carved() const override { return true; }

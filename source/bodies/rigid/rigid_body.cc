@@ -62,7 +62,8 @@ RigidBody::RigidBody(const std::string &name, const int id, HexMesh m,
                      std::shared_ptr<const Material> material,
                      const RigidOptions &options)
     : Body(name, id), mesh(std::move(m)), material(std::move(material)),
-      options(options), n_global_cells(mesh.cells.size())
+      options(options), n_global_cells(mesh.cells.size()),
+      is_prescribed(options.is_prescribed)
 {
   outline = outline_of(mesh, {});
   node_masses.assign(mesh.nodes.size(), 0.);
@@ -84,7 +85,8 @@ RigidBody::RigidBody(const std::string &name, const int id, HexMesh m,
   inverse_inertia = inverse(inertia);
   const auto &v = options.initial_velocity, &w = options.angular_velocity;
   momentum = mass * vec(v[0], v[1], v[2]);
-  angular_momentum = inertia * vec(w[0], w[1], w[2]);
+  prescribed_spin = vec(w[0], w[1], w[2]);
+  angular_momentum = inertia * prescribed_spin;
 }
 
 void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
@@ -137,6 +139,7 @@ void RigidBody::take_faces(const LocalPart &part)
     {
       boundary_faces.push_back(face);
       face_id.push_back(f);
+      boundary_id.push_back(mesh.boundary_id[f]);
     }
   }
   typical_spacing = std::sqrt(area / mesh.boundary_faces.size());
@@ -155,11 +158,8 @@ Mat RigidBody::matrix(const std::array<double, 4> &q)
 
 Vec RigidBody::spin(const Mat &rotation) const
 {
-  if (options.is_prescribed)
-  {
-    const auto &w = options.angular_velocity;
-    return vec(w[0], w[1], w[2]);
-  }
+  if (is_prescribed)
+    return prescribed_spin;
   return rotation *
          (inverse_inertia * (transpose(rotation) * angular_momentum));
 }
@@ -176,7 +176,7 @@ void RigidBody::set_velocities()
 
 void RigidBody::impose_velocities(const double)
 {
-  if (!options.is_prescribed)
+  if (!is_prescribed)
   {
     // The kick gave each node its own impulse.
     ExactSum sums[6];
@@ -202,9 +202,21 @@ void RigidBody::impose_velocities(const double)
   set_velocities();
 }
 
+void RigidBody::move_rigidly(const Vec velocity, const Vec angular_velocity,
+                             const bool is_start)
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  if (!is_start && rank == 0) // once, as all know it
+    impulse.add(mass * velocity - momentum);
+  momentum = mass * velocity;
+  prescribed_spin = angular_velocity;
+  set_velocities();
+}
+
 void RigidBody::accumulate_work(const double half_dt)
 {
-  if (!options.is_prescribed)
+  if (!is_prescribed)
     return;
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
     if (norm_square(nodal_state.force[i]) > 0.)
@@ -216,7 +228,7 @@ void RigidBody::accumulate_work(const double half_dt)
 
 std::vector<Resultant> RigidBody::reactions() const
 {
-  if (!options.is_prescribed)
+  if (!is_prescribed)
     return {};
   ExactVectorSum force, total = impulse;
   for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
@@ -229,7 +241,7 @@ void RigidBody::compute_forces(const double, const double dt)
 {
   center += (dt / mass) * momentum;
   Vec omega = spin(matrix(quaternion));
-  for (int i = 0; i < 4 && !options.is_prescribed; ++i)
+  for (int i = 0; i < 4 && !is_prescribed; ++i)
     omega = spin(matrix(product(rotation_by(0.5 * dt * omega), quaternion)));
   quaternion = product(rotation_by(dt * omega), quaternion);
   double size = 0.;
@@ -327,8 +339,19 @@ void RigidBody::visit_state(StateVisitor &visitor)
   visitor.visit_value("center", center);
   visitor.visit_value("momentum", momentum);
   visitor.visit_value("angular momentum", angular_momentum);
+  visitor.visit_value("prescribed spin", prescribed_spin);
   visitor.visit_value("external work", work);
   visitor.visit_value("reaction impulse", impulse);
+}
+
+LoadedSurface
+RigidBody::loaded_surface(const std::vector<unsigned int> &ids) const
+{
+  LoadedSurface surface;
+  for (std::size_t f = 0; f < boundary_faces.size(); ++f)
+    if (std::find(ids.begin(), ids.end(), boundary_id[f]) != ids.end())
+      surface.faces.push_back(boundary_faces[f]);
+  return surface;
 }
 
 ContactSurface RigidBody::contact_surface() const

@@ -21,11 +21,14 @@ public:
   {
     const double size = get_quantity(request.prm, "Cell size");
     RigidOptions options = RigidOptions::parse(request.prm);
-    options.initial_velocity = get_vector(request.prm, "Initial velocity");
+    options.initial_velocity = request.initial_velocity;
     options.cell_size = size;
-    return std::make_unique<RigidBody>(request.name, request.id,
-                                       request.mesh(size).mesh,
-                                       std::move(request.material), options);
+    NamedMesh made = request.mesh(size);
+    auto body = std::make_unique<RigidBody>(
+        request.name, request.id, std::move(made.mesh),
+        std::move(request.material), options);
+    body->find_faces = face_finder(made);
+    return body;
   }
 };
 

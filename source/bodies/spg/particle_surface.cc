@@ -62,6 +62,38 @@ void ParticleSurface::distribute(const ParticleCloud &cloud,
         constraints.prescribe(i, d, 0., VelocityConstraints::Holder::clamp);
   }
   constraints.finish();
+  keep_shares(cloud, owned);
+}
+
+void ParticleSurface::keep_shares(const ParticleCloud &cloud,
+                                  const std::vector<GlobalIndex> &owned)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> found; // particle, share
+  for (std::size_t s = 0; s < cloud.face_shares.size(); ++s)
+  {
+    const ParticleCloud::FaceShare &share = cloud.face_shares[s];
+    const bool on_plane =
+        share.id < ParticleCloud::n_faces && symmetry_faces >> share.id & 1;
+    const auto at = std::lower_bound(owned.begin(), owned.end(),
+                                     GlobalIndex(share.particle));
+    if (kept_faces.count(share.id) > 0 && !on_plane && at != owned.end() &&
+        *at == GlobalIndex(share.particle))
+      found.emplace_back(at - owned.begin(), s);
+  }
+  std::sort(found.begin(), found.end());
+  for (const auto &[particle, s] : found)
+    kept_shares.push_back(
+        {particle, cloud.face_shares[s].id, cloud.face_shares[s].area});
+}
+
+LoadedSurface
+ParticleSurface::loaded_surface(const std::vector<unsigned int> &ids) const
+{
+  LoadedSurface surface;
+  for (const ParticleCloud::FaceShare &share : kept_shares)
+    if (std::find(ids.begin(), ids.end(), share.id) != ids.end())
+      surface.shares.push_back({share.particle, share.area});
+  return surface;
 }
 
 std::vector<std::size_t>

@@ -102,9 +102,9 @@ public:
       cloud = request.shape.lattice(request.prm,
                                     {{spacing[0], spacing[1], spacing[2]}});
       faces = faces_of_box(cloud);
-      for (const char *const entry : {"Symmetry faces", "Clamped faces"})
-        name_planes(faces, request.path + "/" + entry, request.prm.get(entry),
-                    false);
+      request.turn.apply(cloud);
+      request.turn.apply(faces.mesh);
+      request.name_planes(faces);
     }
     else
     {
@@ -118,11 +118,14 @@ public:
                        cloud.spacing[0]);
     }
     SpgOptions options = SpgOptions::parse(request.prm, request.path);
-    options.initial_velocity = get_vector(request.prm, "Initial velocity");
+    options.initial_velocity = request.initial_velocity;
     options.symmetry_faces = face_bits(request, "Symmetry faces", faces);
     options.clamped_faces = face_bits(request, "Clamped faces", faces);
-    return std::make_unique<SpgBody>(request.name, request.id, std::move(cloud),
-                                     std::move(request.material), options);
+    auto body =
+        std::make_unique<SpgBody>(request.name, request.id, std::move(cloud),
+                                  std::move(request.material), options);
+    body->find_faces = face_finder(faces);
+    return body;
   }
 
   std::string carved_from(const Parameters &prm) const override

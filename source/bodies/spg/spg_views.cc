@@ -1,6 +1,7 @@
 // An SPG body as couplings and reports see particles.
 #include "sabot/bodies/spg/spg_views.h"
 
+#include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
@@ -18,6 +19,14 @@ SurfacePoint SpgViews::surface_point(const std::size_t i) const
 VolumePoint SpgViews::volume_point(const std::size_t i) const
 {
   return particle_volume(i, body.fields, body.approximation, body.kernel);
+}
+
+Vec SpgViews::present_area(const std::size_t i, const Vec area) const
+{
+  if (body.approximation.lost_direction[i])
+    return Vec{};
+  const Mat F = body.fields.deformation_gradient(i);
+  return determinant(F) * (transpose(inverse(F)) * area);
 }
 
 DebrisView SpgViews::debris() const

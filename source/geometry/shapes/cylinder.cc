@@ -54,6 +54,13 @@ public:
             std::move(faces)};
   }
 
+  Vec axis(const Parameters &prm) const override
+  {
+    Vec direction = {};
+    direction[axis_of(prm)] = 1.;
+    return direction;
+  }
+
   std::optional<ZoneShape> zone(const Parameters &prm,
                                 const std::string &path) const override
   {

@@ -20,9 +20,25 @@ public:
     prm.declare_entry("Nose", "ogive", one_of("ogive|conical|spherical"),
                       "Shape of the nose; the ogive is tangent to the shaft.");
     prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
+    prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
+                     "Part of the projectile that is modeled: half keeps the "
+                     "positive side of the axis that follows the projectile's "
+                     "(x after z), quarter that of the other one, too. The "
+                     "cut planes are called as a box's faces, e.g. -x, -y.");
   }
 
-  std::string face_names() const override { return "end, side"; }
+  std::string face_names() const override
+  {
+    return "end, side and the cut planes of a sector";
+  }
+
+  Vec axis(const Parameters &prm) const override
+  {
+    const std::string axis = prm.get("Axis");
+    Vec direction = {};
+    direction[axis.back() - 'x'] = axis[0] == '-' ? -1. : 1.;
+    return direction;
+  }
 
   NamedMesh mesh(const ShapeRequest &request) const override
   {
@@ -44,7 +60,12 @@ public:
     projectile.towards_positive = axis[0] != '-';
     projectile.center = get_vector(prm, "Center");
     projectile.cell_size = request.cell_size;
-    return {make_projectile(projectile), {"end", "side"}};
+    const std::string sector = prm.get("Sector");
+    projectile.n_cuts = sector == "full" ? 0 : sector == "half" ? 1 : 2;
+    std::vector<std::string> faces = {"end", "side"};
+    for (unsigned int cut = 0; cut < projectile.n_cuts; ++cut)
+      faces.push_back(box_faces[2 * ((projectile.axis + 1 + cut) % 3)]);
+    return {make_projectile(projectile), std::move(faces)};
   }
 };
 

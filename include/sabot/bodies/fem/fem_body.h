@@ -114,6 +114,7 @@ public:
 
   // The view of its faces.
   const FaceView *faces() const override { return this; }
+  LoadView *loadable() override { return &boundary; }
   /** Local nodes in VTK order of the cell behind each face of
       contact_surface(); zeros where this rank does not have it. */
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace sabot
@@ -19,7 +20,7 @@ namespace sabot
  * out: nothing touches a body from inside of its other half. No function is
  * collective.
  */
-class FemBoundary
+class FemBoundary : public LoadView
 {
 public:
   /** Finds the symmetry planes. Throws InputError, by the entry "Symmetry
@@ -44,6 +45,9 @@ public:
       node's part for each plane of symmetry through it. */
   ContactSurface surface(const std::size_t n_owned,
                          const double bulk_modulus) const;
+
+  LoadedSurface
+  loaded_surface(const std::vector<unsigned int> &ids) const override;
 
   static constexpr std::uint32_t no_cell = -1;
   /** Numbers of the cells behind the faces; no_cell where another rank's nodes
@@ -75,6 +79,8 @@ private:
   const FemOptions options;
   std::map<unsigned int, int> symmetry_axes; // of boundary ids
   std::vector<SymmetryPlane> symmetry_planes;
+  /** Boundary ids of the faces of the start, by their numbers. */
+  std::vector<std::pair<GlobalIndex, unsigned int>> id_of_face; // ascending
   /** Symmetry planes through owned nodes that lie on any. */
   std::map<std::size_t, int> n_symmetry_planes;
   double typical_spacing = 0.; // [m]

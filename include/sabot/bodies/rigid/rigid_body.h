@@ -50,7 +50,7 @@ struct RigidOptions
  * gives mass and the modulus contact's stiffness; there is no stress. Impulses
  * are summed exactly over ranks, so that all have the same bits.
  */
-class RigidBody : public Body, public FaceView
+class RigidBody : public Body, public FaceView, public LoadView
 {
 public:
   /** Mass, center and tensor of inertia of the whole mesh, so that every rank
@@ -100,12 +100,23 @@ public:
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
   std::vector<Resultant> reactions() const override;
-  bool is_held() const override { return options.is_prescribed; }
+  bool is_held() const override { return is_prescribed; }
+  bool prescribe_rigid_motion() override
+  {
+    is_prescribed = true;
+    return true;
+  }
+  /** Of a prescribed body; every rank gives the same. */
+  void move_rigidly(const Vec velocity, const Vec angular_velocity,
+                    const bool is_start) override;
   void visit_state(StateVisitor &visitor) override;
   /** All boundary faces of the mesh that are complete here; the spacing is
       the root of the mean area [m] of all, on every rank. */
   ContactSurface contact_surface() const override;
+  LoadedSurface
+  loaded_surface(const std::vector<unsigned int> &ids) const override;
   const FaceView *faces() const override { return this; }
+  LoadView *loadable() override { return this; }
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override
   {
     return {};
@@ -128,7 +139,7 @@ protected:
 
 private:
   /** omega = Q I^-1 Q^T l for the rotation Q [1/s]. Of a prescribed body the
-      angular velocity of the scene. */
+      one that is prescribed. */
   Vec spin(const Mat &rotation) const;
   /** Faces whose nodes are all here, and the mean edge of all faces. Ids of
       faces are their numbers in the mesh. */
@@ -149,6 +160,7 @@ private:
   std::vector<char> owned_cell;
   std::vector<std::array<std::size_t, 4>> boundary_faces;
   std::vector<GlobalIndex> face_id;
+  std::vector<unsigned int> boundary_id; // of the faces
   double typical_spacing = 0.;
 
   double mass = 0.;                // [kg]
@@ -161,6 +173,8 @@ private:
   AlignedVector<Vec> rigid_velocity; // of owned nodes, before the kick
   ExactSum work;                     // of a prescribed motion [J]
   ExactVectorSum impulse;            // of what keeps it up [N s]
+  bool is_prescribed;                // by the scene or a load
+  Vec prescribed_spin;               // [1/s]
 };
 } // namespace sabot
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct SpgOptions;
  * between them and the mean. Surfaces that open later have no normals. No
  * function is collective.
  */
-class ParticleSurface
+class ParticleSurface : public LoadView
 {
 public:
   /** Throws InputError where a face of symmetry is not a plane across an axis.
@@ -44,6 +45,14 @@ public:
                   const std::vector<GlobalIndex> &owned,
                   const std::uint32_t clamped_faces,
                   VelocityConstraints &constraints);
+
+  void keep_faces(const std::vector<unsigned int> &ids) override
+  {
+    kept_faces.insert(ids.begin(), ids.end());
+  }
+  /** Owned particles' shares in the areas of these of the kept faces. */
+  LoadedSurface
+  loaded_surface(const std::vector<unsigned int> &ids) const override;
 
   /** Local indices of owned particles on the faces of @p faces (bits as in
       ParticleCloud::on_face). */
@@ -65,6 +74,8 @@ public:
                      const double spacing) const;
 
 private:
+  void keep_shares(const ParticleCloud &cloud,
+                   const std::vector<GlobalIndex> &owned);
   /** Axes across which owned particle @p i lies on a plane of symmetry, a bit
       each. */
   unsigned int symmetry_axes(const std::size_t i) const;
@@ -75,6 +86,9 @@ private:
   std::vector<SymmetryPlane> symmetry_planes;
   std::vector<std::uint32_t> on_face; // owned
   AlignedVector<Vec> outward;         // owned, at the start, outward_normals()
+  std::set<unsigned int> kept_faces;  // boundary ids
+  /** Of the kept faces, by particle; local numbers. */
+  std::vector<ParticleCloud::FaceShare> kept_shares;
 };
 
 /** Owned particle @p i as part of a volume (Body::volume_point): the shape

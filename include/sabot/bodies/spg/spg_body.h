@@ -125,6 +125,7 @@ public:
   ContactSurface contact_surface() const override;
   const ParticleView *particles() const override { return &views; }
   const FragmentView *fragments() const override { return &views; }
+  LoadView *loadable() override { return &surface; }
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
 

@@ -36,6 +36,8 @@ public:
   /** The kernel's ellipsoid, carried on by F_inc since the last kernel
       update. */
   VolumePoint volume_point(const std::size_t i) const override;
+  /** By the total F. */
+  Vec present_area(const std::size_t i, const Vec area) const override;
   /** All that have a failed bond: they may meet others again. Bulk modulus
       [Pa] at rest and mean spacing of the start [m] for the stiffness of
       their contact. */
