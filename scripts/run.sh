@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Set up, build and run a scene: scripts/run.sh [scene.prm] [sabot's options]
-# Without a scene: the plate of prm/perforation/quick.prm.
+# Without a scene: the plate of prm/perforation/first.prm.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-scene=$root/prm/perforation/quick.prm
+scene=$root/prm/perforation/first.prm
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then
   scene=$(realpath "$1")
   shift

@@ -80,6 +80,25 @@ VelocityConstraints::reactions(const NodalState &nodes, const int body,
   return all;
 }
 
+std::vector<Resultant>
+VelocityConstraints::reactions(const NodalState &nodes, const int body,
+                               MPI_Comm communicator) const
+{
+  const std::array<Holder, 3> all = {
+      {Holder::symmetry, Holder::drive, Holder::clamp}};
+  int is_there[3] = {0, 0, 0};
+  for (const Held &h : held)
+    for (int d = 0; d < 3; ++d)
+      if (h.free[d] == 0.)
+        is_there[static_cast<int>(h.by[d])] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, is_there, 3, MPI_INT, MPI_MAX, communicator);
+  std::vector<Holder> kinds;
+  for (const Holder kind : all)
+    if (is_there[static_cast<int>(kind)])
+      kinds.push_back(kind);
+  return reactions(nodes, body, kinds, communicator);
+}
+
 void VelocityConstraints::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("reaction impulse", impulse);

@@ -12,6 +12,7 @@ Contact::Contact(const std::string &name, const std::vector<Body *> &bodies,
     : Coupling(name), bodies(bodies), pairs(pairs), options(options),
       communicator(communicator), faces(halo), patch(halo, faces)
 {
+  forces.pairs = PairForces(holds_apart(), bodies);
 }
 
 std::vector<std::pair<int, int>> Contact::holds_apart() const
@@ -199,6 +200,12 @@ void Contact::push(const ContactPoint &point)
     const TouchedNode &t = touched[i];
     forces.normal[t.slot] -= flipped(t.weight * normal, t.mirrored);
     forces.friction[t.slot] -= flipped(t.weight * friction, t.mirrored);
+    if (forces.pairs.any())
+    {
+      const Vec part = t.weight * (normal + friction);
+      forces.pairs.add(halo, slot, t.slot, part);
+      forces.pairs.add(halo, t.slot, slot, -1. * flipped(part, t.mirrored));
+    }
   }
 }
 

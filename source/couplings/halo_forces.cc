@@ -18,6 +18,7 @@ void HaloForces::clear()
 {
   std::fill(normal.begin(), normal.end(), Vec{});
   std::fill(friction.begin(), friction.end(), Vec{});
+  pairs.clear();
 }
 
 void HaloForces::add_to_bodies(const NodeHalo &halo)
@@ -49,21 +50,26 @@ void HaloForces::accumulate_work(const NodeHalo &halo, const double half_dt)
       body_of.push_back(halo.key(s).body);
   }
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
-    if (norm_square(normal[s]) > 0.)
+    if (norm_square(normal[s]) + norm_square(friction[s]) > 0.)
     {
       const Vec v = half_dt * halo.body_velocity(s);
       contact_work.add(dot(normal[s], v));
       friction_work.add(dot(friction[s], v));
       impulse[s] += half_dt * (normal[s] + friction[s]);
     }
+  pairs.accumulate(half_dt);
 }
 
-std::vector<Resultant> HaloForces::resultants(
-    const std::string &source, const std::vector<std::pair<int, int>> &pairs,
-    const NodeHalo &halo, MPI_Comm communicator, const bool with_own) const
+std::vector<Resultant>
+HaloForces::resultants(const std::string &source,
+                       const std::vector<std::pair<int, int>> &body_pairs,
+                       const NodeHalo &halo, MPI_Comm communicator,
+                       const bool with_own) const
 {
   std::set<int> bodies;
-  for (const auto &[a, b] : pairs)
+  if (pairs.any())
+    return pairs.resultants(source, communicator);
+  for (const auto &[a, b] : body_pairs)
     if (a != b || with_own)
       bodies.insert({a, b});
   std::vector<ExactVectorSum> force(bodies.size()), total(bodies.size());
@@ -117,5 +123,6 @@ void HaloForces::visit_state(StateVisitor &visitor)
   visitor.visit_resized("impulse", impulse);
   visitor.visit_resized("body of impulse", body_of);
   visitor.visit_resized("settled impulse", settled);
+  pairs.visit_state(visitor);
 }
 } // namespace sabot

@@ -16,6 +16,7 @@ ParticleContact::ParticleContact(const std::string &name,
     : Coupling(name), bodies(bodies), pairs(pairs), options(options),
       communicator(communicator)
 {
+  forces.pairs = PairForces(pairs, bodies);
 }
 
 void ParticleContact::initialize()
@@ -281,6 +282,12 @@ void ParticleContact::push(const ContactPoint &point)
     const NearParticle &p = touched[i];
     forces.normal[p.slot] -= p.weight * flipped(normal, p.turned);
     forces.friction[p.slot] -= p.weight * flipped(friction, p.turned);
+    if (forces.pairs.any())
+    {
+      const Vec part = p.weight * (normal + friction);
+      forces.pairs.add(halo, node, p.slot, part);
+      forces.pairs.add(halo, p.slot, node, -1. * flipped(part, p.turned));
+    }
   }
 }
 

@@ -27,6 +27,7 @@ SelfContact::SelfContact(const std::string &name,
     : Coupling(name), bodies(bodies), body_pairs(pairs), options(options),
       communicator(communicator), images(bodies)
 {
+  forces.pairs = PairForces(body_pairs, bodies);
 }
 
 std::string SelfContact::kind() const
@@ -253,11 +254,15 @@ void SelfContact::push(const ContactPoint &on_second)
             friction = -on_second.drag * on_second.sliding;
   forces.normal[a] -= normal;
   forces.friction[a] -= friction;
+  if (forces.pairs.any())
+    forces.pairs.add(halo, a, b, -1. * (normal + friction));
   if (pair.first == pair.second)
     return; // the other is no node of the model
   const unsigned int turned = images.turned_axes(pair.image);
   forces.normal[b] += flipped(normal, turned);
   forces.friction[b] += flipped(friction, turned);
+  if (forces.pairs.any())
+    forces.pairs.add(halo, b, a, flipped(normal + friction, turned));
 }
 
 void SelfContact::accumulate_work(const double half_dt)

@@ -199,10 +199,7 @@ void append_row(const Scene &scene, History &history)
       body->measure();
     history.append(body->name, body->measure().columns());
   }
-  for (const auto &coupling : scene.couplings)
-    coupling->resultants();
-  for (const auto &body : scene.bodies)
-    body->reactions();
+  scene.resultants();
   Measures row;
   for (const auto &quantity : scene.quantities)
     row.push_back({quantity->name, quantity->unit(), quantity->value()});

@@ -127,7 +127,7 @@ ordered_json body_results(const Scene &scene, const ControlShares &shares)
     b["bonds_broken_fraction"] = number(measures.bonds_broken_fraction);
     b["eroded_mass"] = number(measures.eroded_mass);
     add_fragments(*body, b);
-    add_resultants(body->reactions(), scene, b);
+    add_resultants(scene.reactions(*body), scene, b);
     bodies[body->name] = b;
   }
   return bodies;

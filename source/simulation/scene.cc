@@ -329,13 +329,23 @@ std::vector<std::string> Scene::columns_of(const std::string &table) const
   return columns;
 }
 
+std::vector<Resultant> Scene::reactions(const Body &body) const
+{
+  std::vector<Resultant> all = body.reactions();
+  if (const VelocityConstraints *const held = body.prescribed())
+    for (const Resultant &r :
+         held->reactions(body.nodes(), body.id, communicator))
+      all.push_back(r);
+  return all;
+}
+
 std::vector<Resultant> Scene::resultants() const
 {
   std::vector<Resultant> all;
   const auto take = [&](const std::vector<Resultant> &some)
   { all.insert(all.end(), some.begin(), some.end()); };
   for (const auto &body : bodies)
-    take(body->reactions());
+    take(reactions(*body));
   for (const auto &load : loads)
     take(load->resultants());
   for (const auto &coupling : couplings)

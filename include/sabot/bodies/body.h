@@ -145,6 +145,14 @@ public:
       its face. */
   virtual std::vector<std::array<std::size_t, 8>>
   cells_behind_faces() const = 0;
+  /** Add this rank's share of the force [N] on the part of the body that lies
+      beyond a plane of the reference configuration, X . @p normal > @p offset
+      [m], by the rest of it: the internal forces of its nodes. Of the cells
+     that the plane cuts; inside of others they add up to nothing. */
+  virtual void add_section_force(const Vec /*normal*/, const double /*offset*/,
+                                 ExactVectorSum & /*sum*/) const
+  {
+  }
   /** Whether the faces deform: only such a body leads a tie or folds onto
       itself. */
   virtual bool deform() const = 0;
@@ -189,6 +197,8 @@ public:
       its deformation gradient: det F F^-T A (Nanson). Zero for what lost a
       direction and has no shape any more. */
   virtual Vec present_area(const std::size_t i, const Vec area) const = 0;
+  /** The body's own part of the force on owned node @p i [N], now. */
+  virtual Vec own_force(const std::size_t i) const = 0;
   /** What has come loose; empty for a body whose parts never do. */
   virtual DebrisView debris() const = 0;
   /** Whether owned node @p i is still bonded to node @p j (global). */
@@ -332,18 +342,9 @@ public:
   /** What is known of it before the run; before distribute() where it is asked
       for its mesh. */
   virtual BodyFacts facts() const = 0;
-  /** What holds or drives its nodes from outside, by kind: "clamped faces",
-      "symmetry faces", "driven faces", "prescribed motion" of the whole body.
-      Collective. */
+  /** What moves it as a whole from outside, "prescribed motion"; what its
+      prescribed() velocities hold is not in it. Collective. */
   virtual std::vector<Resultant> reactions() const { return {}; }
-  /** Add this rank's share of the force [N] on the part of the body that lies
-      beyond a plane of the reference configuration, X . @p normal > @p offset
-      [m], by the rest of the body: the internal forces of its nodes. Nothing of
-      a body without stress. Local. */
-  virtual void add_section_force(const Vec /*normal*/, const double /*offset*/,
-                                 ExactVectorSum & /*sum*/) const
-  {
-  }
   /** Whether something outside of the scene acts on it, e.g. a clamp, so that
       momentum is not kept. */
   virtual bool is_held() const = 0;

@@ -63,6 +63,9 @@ public:
   std::vector<Resultant> reactions(const NodalState &nodes, const int body,
                                    const std::vector<Holder> &kinds,
                                    MPI_Comm communicator) const;
+  /** The same, of all kinds that there are on any rank. Collective. */
+  std::vector<Resultant> reactions(const NodalState &nodes, const int body,
+                                   MPI_Comm communicator) const;
   /** Impulses so far. */
   void visit_state(StateVisitor &visitor);
   /** Energy of half a kick by the present forces alone, of owned nodes and

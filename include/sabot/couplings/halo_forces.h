@@ -6,6 +6,7 @@
 #include "sabot/base/resultant.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/pair_forces.h"
 
 #include <utility>
 
@@ -24,6 +25,7 @@ class HaloForces
 {
 public:
   AlignedVector<Vec> normal, friction; // per slot [N]
+  PairForces pairs; // of more than two bodies: who pushes whom
 
   /** For a halo of @p n slots; all forces zero. Work and impulses so far
       stay. */
@@ -42,12 +44,13 @@ public:
   /** Appends "contact energy" and "friction energy" [J]. Collective, the same
       on all ranks. */
   void add_measures(Measures &measures, MPI_Comm communicator) const;
-  /** What acts on each body of @p pairs that is not met by itself alone, and
+  /** What acts on each body of @p body_pairs, of more than two by each other
+      one (PairForces); of two on each that is not met by itself alone, and
       @p with_own on that, too: where it meets its mirror images; named
       @p source. Collective. */
   std::vector<Resultant>
   resultants(const std::string &source,
-             const std::vector<std::pair<int, int>> &pairs,
+             const std::vector<std::pair<int, int>> &body_pairs,
              const NodeHalo &halo, MPI_Comm communicator,
              const bool with_own = false) const;
   /** After resize(): forces are part of the state, for half of their work along

@@ -104,6 +104,10 @@ public:
    */
   std::vector<std::pair<std::string, std::string>> knobs() const;
 
+  /** What holds or drives a body from outside: "clamped faces", "symmetry
+      faces", "driven faces", "prescribed motion". After distribute();
+      collective. */
+  std::vector<Resultant> reactions(const Body &body) const;
   /** Who pushes whom: reactions of bodies, then what couplings do. After
       distribute(); collective. */
   std::vector<Resultant> resultants() const;

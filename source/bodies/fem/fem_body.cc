@@ -243,19 +243,6 @@ bool FemBody::is_held() const
          !options.driven_boundary_ids.empty();
 }
 
-std::vector<Resultant> FemBody::reactions() const
-{
-  using Holder = VelocityConstraints::Holder;
-  std::vector<Holder> kinds;
-  if (!options.symmetry_boundary_ids.empty())
-    kinds.push_back(Holder::symmetry);
-  if (!options.driven_boundary_ids.empty())
-    kinds.push_back(Holder::drive);
-  if (!options.clamped_boundary_ids.empty())
-    kinds.push_back(Holder::clamp);
-  return constraints.reactions(nodal_state, id, kinds, communicator);
-}
-
 void FemBody::add_section_force(const Vec normal, const double offset,
                                 ExactVectorSum &sum) const
 {

@@ -95,14 +95,6 @@ bool SpgBody::is_held() const
   return options.symmetry_faces != 0 || options.clamped_faces != 0;
 }
 
-void SpgBody::add_section_force(const Vec normal, const double offset,
-                                ExactVectorSum &sum) const
-{
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (dot(nodal_state.reference_position[i], normal) > offset)
-      sum.add(fields.own_force[i]);
-}
-
 std::vector<MaterialSite> SpgBody::material_sites() const
 {
   const double *const eps = points.state("effective plastic strain");
@@ -130,6 +122,13 @@ const DescribeField described[] = {
                    "0, the heaviest, down; of equal ones that with the lowest "
                    "number of a particle comes first."})};
 
+/** Of an owned particle [m^3]. */
+double present_volume(const ParticleFields &fields, const std::size_t i)
+{
+  return determinant(fields.incremental_deformation_gradient[i]) *
+         fields.kernel_reference_volume[i];
+}
+
 /** Of every label its place among the @p pieces, which are sorted by size. */
 std::vector<double> size_ranks(const std::vector<GlobalIndex> &labels,
                                const std::vector<Fragment> &pieces)
@@ -143,22 +142,6 @@ std::vector<double> size_ranks(const std::vector<GlobalIndex> &labels,
   return ranks;
 }
 } // namespace
-
-double SpgBody::present_volume(const std::size_t i) const
-{
-  return determinant(fields.incremental_deformation_gradient[i]) *
-         fields.kernel_reference_volume[i];
-}
-
-std::vector<Resultant> SpgBody::reactions() const
-{
-  std::vector<VelocityConstraints::Holder> kinds;
-  if (options.symmetry_faces != 0)
-    kinds.push_back(VelocityConstraints::Holder::symmetry);
-  if (options.clamped_faces != 0)
-    kinds.push_back(VelocityConstraints::Holder::clamp);
-  return constraints.reactions(nodal_state, id, kinds, communicator);
-}
 
 void SpgBody::fill_output(OutputMesh &mesh) const
 {
@@ -185,7 +168,7 @@ void SpgBody::fill_output(OutputMesh &mesh) const
             { return nodal_state.velocity[i][c]; });
   add_field(at_points, "diameter", n,
             [&](const std::size_t i, const unsigned int)
-            { return std::cbrt(present_volume(i)); });
+            { return std::cbrt(present_volume(fields, i)); });
   points.add_fields(out, items);
   add_field(out, "failed-bond fraction", n,
             [&](const std::size_t i, const unsigned int)
@@ -215,7 +198,8 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 {
   FlowStressProbe probe(points.law());
   for (const std::size_t i : some_nodes)
-    points.add_to(probe, i, present_volume(i) / fields.reference_volume[i]);
+    points.add_to(probe, i,
+                  present_volume(fields, i) / fields.reference_volume[i]);
   return probe.flow_stress();
 }
 

@@ -29,6 +29,11 @@ Vec SpgViews::present_area(const std::size_t i, const Vec area) const
   return determinant(F) * (transpose(inverse(F)) * area);
 }
 
+Vec SpgViews::own_force(const std::size_t i) const
+{
+  return body.fields.own_force[i];
+}
+
 DebrisView SpgViews::debris() const
 {
   DebrisView view;

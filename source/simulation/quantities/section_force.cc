@@ -44,7 +44,17 @@ public:
   double value() const override
   {
     ExactVectorSum force;
-    across.body.add_section_force(across.direction, offset, force);
+    if (const FaceView *const faces = across.body.faces())
+      faces->add_section_force(across.direction, offset, force);
+    if (const ParticleView *const particles = across.body.particles())
+    {
+      // A particle's stress gives forces that add up to nothing, unless the
+      // plane passes through its neighborhood.
+      const NodalState &nodes = across.body.nodes();
+      for (std::size_t i = 0; i < nodes.n_owned; ++i)
+        if (dot(nodes.reference_position[i], across.direction) > offset)
+          force.add(particles->own_force(i));
+    }
     ExactVectorSum::reduce({&force}, communicator);
     const std::array<double, 3> f = force.value();
     return -copies * dot(across.direction, vec(f[0], f[1], f[2]));

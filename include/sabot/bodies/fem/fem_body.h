@@ -86,11 +86,6 @@ public:
       every number of ranks. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
-  std::vector<Resultant> reactions() const override;
-  /** Of the cells that the plane cuts: inside of all others the forces of the
-      corners add up to nothing. */
-  void add_section_force(const Vec normal, const double offset,
-                         ExactVectorSum &sum) const override;
   /** By any clamped, driven or symmetry face, the rest of the scene aside. */
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
@@ -119,6 +114,8 @@ public:
       contact_surface(); zeros where this rank does not have it. */
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;
   bool deform() const override { return true; }
+  void add_section_force(const Vec normal, const double offset,
+                         ExactVectorSum &sum) const override;
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
 

@@ -98,11 +98,6 @@ public:
       lost a direction; isolated: those without a bond. Collective. */
   BodyMeasures measure() const override;
   BodyFacts facts() const override;
-  std::vector<Resultant> reactions() const override;
-  /** Of all particles beyond: the forces that a particle's stress makes add up
-      to nothing unless the plane passes through its neighborhood. */
-  void add_section_force(const Vec normal, const double offset,
-                         ExactVectorSum &sum) const override;
   /** By faces of symmetry or clamped ones, the rest of the scene aside. */
   bool is_held() const override;
   std::vector<SymmetryPlane> planes_of_symmetry() const override
@@ -199,8 +194,6 @@ private:
       to the body's forces is kept: the half kick that follows uses the sum,
       and the ledger counts its work. Collective. */
   void update_kernel_and_forces(const unsigned int step);
-  /** [m^3], of owned particle @p i. */
-  double present_volume(const std::size_t i) const;
   /** Forces of now, material advanced by @p dt; the body's part is kept.
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */

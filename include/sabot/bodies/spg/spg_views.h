@@ -41,6 +41,7 @@ public:
   /** All that have a failed bond: they may meet others again. Bulk modulus
       [Pa] at rest and mean spacing of the start [m] for the stiffness of
       their contact. */
+  Vec own_force(const std::size_t i) const override;
   DebrisView debris() const override;
   /** i local and owned, j global; a walk along the row of i. */
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
