@@ -58,7 +58,8 @@ std::vector<Check> sliding()
   ContactOptions options;
   options.friction = coulomb(mu);
   add_contact(world, options);
-  double x = 0., stopped_at = std::nan(""), distance = stopped_at, worst = 0.;
+  double x = 0., stopped_at = std::nan(""), distance = stopped_at, worst = 0.,
+         before = v;
   while (world.stepper.time() < 40e-6)
   {
     const double dt = world.advance(0.5);
@@ -68,9 +69,11 @@ std::vector<Check> sliding()
         g * world.stepper.time() + world.bodies[0]->measure().velocity[2];
     if (std::isnan(stopped_at) && now <= 0.02 * v)
     {
-      stopped_at = world.stepper.time();
+      stopped_at =
+          world.stepper.time() - dt * (0.02 * v - now) / (before - now);
       distance = x;
     }
+    before = now;
     if (now > 0.1 * v && impulse > 0.1 * v)
       worst = std::max(worst, std::abs((v - now) / impulse - mu));
   }

@@ -36,7 +36,9 @@ void Contact::initialize()
   for (const Group &group : groups)
   {
     FaceProjection projection;
-    if (faces.closest(group, projection) >= 0 &&
+    ContactMemory memory;
+    double nearest;
+    if (faces.holding(group, memory, projection, nearest, 0.) >= 0 &&
         -projection.gap / group.spacing > worst)
     {
       worst = -projection.gap / group.spacing;
@@ -79,6 +81,7 @@ void Contact::add_forces(const double dt)
     return settle();
   points.clear();
   touched.clear();
+  points.steady_step.follow(dt);
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (!(traveled < groups[g].wake)) // else still apart
       press(g, dt);
@@ -93,10 +96,12 @@ void Contact::settle()
   for (Group &group : groups)
   {
     FaceProjection projection;
-    if (faces.closest(group, projection) < 0)
-      continue;
-    group.memory.side = projection.face_normal;
-    if (projection.gap > -1e-6 * group.spacing)
+    ContactMemory memory;
+    double nearest;
+    const bool is_inside =
+        faces.holding(group, memory, projection, nearest, 0.) >= 0;
+    group.memory.side = memory.side;
+    if (!is_inside || projection.gap > -1e-6 * group.spacing)
       group.memory.release();
   }
 }
@@ -105,11 +110,13 @@ void Contact::press(const std::size_t number, const double dt)
 {
   Group &group = groups[number];
   FaceProjection projection;
-  const std::ptrdiff_t f = faces.holding(group, group.memory, projection, dt);
+  double nearest;
+  const std::ptrdiff_t f =
+      faces.holding(group, group.memory, projection, nearest, dt);
   if (f < 0)
   {
     group.memory.release();
-    group.wake = traveled + 0.99 * std::sqrt(projection.distance_square);
+    group.wake = traveled + 0.99 * nearest;
     return;
   }
   ContactPoint point;
@@ -129,8 +136,8 @@ void Contact::press(const std::size_t number, const double dt)
     return;
   }
   point.reduced_mass = 1. / (1. / halo.inertia[group.slot] + face_compliance);
-  point.stiffness =
-      options.stable_stiffness(group.stiffness, point.reduced_mass, dt);
+  point.stiffness = options.stable_stiffness(
+      group.stiffness, point.reduced_mass, points.steady_step.value);
   point.area = norm_square(group.area_vector) > 0.
                    ? std::max(0., -dot(group.area_vector, point.normal))
                    : group.area;

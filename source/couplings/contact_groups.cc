@@ -44,6 +44,35 @@ void Contact::search()
     halo.find_flow_stress(flow_stress);
 }
 
+namespace
+{
+/** Mark also the faces around the @p nodes and around the corners of those
+    marked, for the normals there; append the corners of all to the nodes. */
+void add_neighbors(const SearchResult &found, std::vector<NodeKey> &nodes,
+                   std::vector<char> &is_needed)
+{
+  const auto key = [&](const std::size_t f, const int a) {
+    return NodeKey{found.faces[f].body, 0, found.faces[f].node[a]};
+  };
+  for (std::size_t f = 0; f < is_needed.size(); ++f)
+    if (is_needed[f])
+      for (int a = 0; a < 4; ++a)
+        nodes.push_back(key(f, a));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const std::vector<NodeKey> with_normal = nodes;
+  for (std::size_t f = 0; f < is_needed.size(); ++f)
+  {
+    for (int a = 0; a < 4; ++a)
+      is_needed[f] |=
+          std::binary_search(with_normal.begin(), with_normal.end(), key(f, a));
+    if (is_needed[f])
+      for (int a = 0; a < 4; ++a)
+        nodes.push_back(key(f, a));
+  }
+}
+} // namespace
+
 std::vector<Contact::KeptNode>
 Contact::keep_relevant(const SearchResult &found,
                        std::vector<std::size_t> &number_of_face)
@@ -75,10 +104,7 @@ Contact::keep_relevant(const SearchResult &found,
       for (auto k = c[i].first_face; k < c[i].last_face; ++k)
         is_needed[found.face_of_candidate[k]] = 1;
   }
-  for (std::size_t f = 0; f < found.faces.size(); ++f)
-    if (is_needed[f])
-      for (const GlobalIndex a : found.faces[f].node)
-        needed.push_back({found.faces[f].body, 0, a});
+  add_neighbors(found, needed, is_needed);
   halo.build(bodies, needed, communicator);
   faces.clear();
   number_of_face.assign(found.faces.size(), 0);
@@ -128,6 +154,7 @@ Contact::make_group(const SearchResult &found, const KeptNode &node,
       candidate.share * options.stiffness_scale * modulus * group.spacing;
   group.area = candidate.share * group.spacing * group.spacing / sides;
   group.area_vector = (1. / sides) * candidate.area;
+  group.own = candidate.own;
   return group;
 }
 
@@ -135,6 +162,15 @@ void Contact::reset_slots()
 {
   forces.resize(halo.size());
   patch.reset(surfaces, halo.size());
+  std::vector<std::vector<SymmetryPlane>> planes;
+  double spacing = 1e300;
+  for (const ContactSurface &surface : surfaces)
+  {
+    planes.push_back(surface.symmetry_planes);
+    if (surface.spacing > 0.)
+      spacing = std::min(spacing, surface.spacing);
+  }
+  faces.build_normals(planes, 1e-6 * spacing);
 }
 
 void Contact::visit_state(StateVisitor &visitor)
@@ -142,62 +178,65 @@ void Contact::visit_state(StateVisitor &visitor)
   visitor.visit_value("traveled", traveled);
   visitor.visit_value("surface version", surface_version);
   visitor.visit_value("penetration", penetration_over_spacing);
+  visitor.visit_value("steady step", points.steady_step.value);
   // Candidates were found where the bodies were at the last search, so they
   // cannot be found anew. Slots depend on nothing but the nodes.
-  std::vector<SavedGroup> saved;
-  std::vector<NodeKey> face_nodes;
+  SavedGroups saved;
   for (const Group &group : groups)
-  {
-    saved.push_back(
+    saved.groups.push_back(
         {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
          group.stiffness, group.spacing, group.area, group.area_vector,
-         group.memory, group.wake, group.patch_radius, group.share});
-    for (std::size_t k = group.first_face; k < group.last_face; ++k)
-      for (const std::size_t slot : faces.corners[faces.face_of_node[k]])
-        face_nodes.push_back(halo.key(slot));
-  }
-  visitor.visit_resized("groups", saved);
-  visitor.visit_resized("face nodes", face_nodes);
+         group.own, group.memory, group.wake, group.patch_radius, group.share});
+  for (const std::size_t face : faces.face_of_node)
+    saved.face_of_node.push_back(face);
+  for (const auto &face : faces.corners)
+    for (const std::size_t slot : face)
+      saved.face_nodes.push_back(halo.key(slot));
+  visitor.visit_resized("groups", saved.groups);
+  visitor.visit_resized("faces of nodes", saved.face_of_node);
+  visitor.visit_resized("face nodes", saved.face_nodes);
   if (visitor.is_restoring())
   {
     update_surfaces(); // as the restored bodies have them
-    restore_groups(saved, face_nodes);
+    restore_groups(saved);
   }
   visitor.visit_resized("flow stress", flow_stress);
   forces.visit_state(visitor);
 }
 
-void Contact::restore_groups(const std::vector<SavedGroup> &saved,
-                             const std::vector<NodeKey> &face_nodes)
+void Contact::restore_groups(const SavedGroups &saved)
 {
-  std::vector<NodeKey> needed = face_nodes;
-  for (const SavedGroup &group : saved)
+  std::vector<NodeKey> needed = saved.face_nodes;
+  for (const SavedGroup &group : saved.groups)
     needed.push_back(group.node);
   halo.build(bodies, needed, communicator);
   groups.clear();
   faces.clear();
-  for (const SavedGroup &from : saved)
+  for (std::size_t f = 0; f < saved.face_nodes.size(); f += 4)
+  {
+    std::array<std::size_t, 4> slots;
+    for (int a = 0; a < 4; ++a)
+      slots[a] = halo.slot(saved.face_nodes[f + a]);
+    faces.corners.push_back(slots);
+  }
+  faces.face_of_node.assign(saved.face_of_node.begin(),
+                            saved.face_of_node.end());
+  std::size_t first_face = 0;
+  for (const SavedGroup &from : saved.groups)
   {
     Group group;
     group.slot = halo.slot(from.node);
-    group.first_face = faces.corners.size();
-    group.last_face = group.first_face + from.n_faces;
+    group.first_face = first_face;
+    group.last_face = first_face += from.n_faces;
     group.stiffness = from.stiffness;
     group.spacing = from.spacing;
     group.area = from.area;
     group.area_vector = from.area_vector;
+    group.own = from.own;
     group.memory = from.memory;
     group.wake = from.wake;
     group.patch_radius = from.patch_radius;
     group.share = from.share;
-    for (std::size_t f = group.first_face; f < group.last_face; ++f)
-    {
-      std::array<std::size_t, 4> slots;
-      for (int a = 0; a < 4; ++a)
-        slots[a] = halo.slot(face_nodes[4 * f + a]);
-      faces.face_of_node.push_back(faces.corners.size());
-      faces.corners.push_back(slots);
-    }
     groups.push_back(group);
   }
   reset_slots();

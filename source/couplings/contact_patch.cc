@@ -96,7 +96,7 @@ bool ContactPatch::spread(const NearFaces &node, const double radius,
   const double size = norm(mean);
   if (!(size > 0.))
     return false;
-  mean = (1. / size) * mean;
+  mean = held;
   if (!patch_weights(points, areas, center, mean, radius, weights))
     return false;
   Vec offset = p;

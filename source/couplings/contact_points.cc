@@ -5,37 +5,61 @@
 
 namespace sabot
 {
+namespace
+{
+Vec sliding(const ContactPoint &p)
+{
+  return p.velocity - dot(p.velocity, p.normal) * p.normal;
+}
+
+/** 2 zeta sqrt(k m) [N s/m] */
+double damping(const ContactPoint &p, const ContactOptions &options)
+{
+  return 2. * options.damping_fraction *
+         std::sqrt(p.stiffness * p.reduced_mass);
+}
+
+/** Friction on the node below @p largest [N]. */
+Vec friction_of(const ContactPoint &p, const ContactOptions &options,
+                const double largest, const double dt)
+{
+  if (p.memory != nullptr)
+    return spring_friction(*p.memory, p.normal, p.velocity, p.depth,
+                           p.stiffness, damping(p, options), largest, dt);
+  const Vec v = sliding(p);
+  const double speed = norm(v);
+  return speed > 0. ? -std::min(largest / speed, 0.5 * p.reduced_mass / dt) * v
+                    : Vec{};
+}
+} // namespace
+
 void ContactPoints::find_forces(const ContactOptions &options, const double dt)
 {
   const std::size_t n = points.size();
   contacts.pressing.resize(n);
   contacts.speed.resize(n);
   contacts.area.resize(n);
-  friction.assign(n, 0.);
   for (std::size_t i = 0; i < n; ++i)
   {
     ContactPoint &p = points[i];
-    const double normal_rate = dot(p.velocity, p.normal);
-    const double damping = 2. * options.damping_fraction *
-                           std::sqrt(p.stiffness * p.reduced_mass) *
-                           std::max(0., -normal_rate);
-    p.pressing = p.stiffness * p.depth + damping;
-    p.sliding = p.velocity - normal_rate * p.normal;
+    p.pressing = p.stiffness * p.depth +
+                 damping(p, options) * std::max(0., -dot(p.velocity, p.normal));
+    p.friction = Vec{};
     contacts.pressing[i] = p.pressing;
-    contacts.speed[i] = norm(p.sliding);
+    contacts.speed[i] = norm(sliding(p));
     contacts.area[i] = p.area;
   }
   if (options.friction)
-    options.friction->find_friction(contacts, friction);
-  for (std::size_t i = 0; i < n; ++i)
   {
-    ContactPoint &p = points[i];
-    const double speed = contacts.speed[i];
-    // Friction cannot do more than stop the sliding within the step.
-    p.drag = speed > 0. ? std::min({friction[i], p.largest_friction,
-                                    0.5 * p.reduced_mass * speed / dt}) /
-                              speed
-                        : 0.;
+    largest.assign(n, 0.);
+    options.friction->find_friction(contacts, largest);
+    for (std::size_t i = 0; i < n; ++i)
+      points[i].friction =
+          friction_of(points[i], options,
+                      std::min(largest[i], points[i].largest_friction), dt);
+  }
+  for (ContactPoint &p : points)
+  {
     p.part = p.fade;
     if (p.memory != nullptr)
       p.part = p.fade * backed_part(*p.memory,

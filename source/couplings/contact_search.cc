@@ -95,8 +95,26 @@ std::vector<Extent> find_extents(const ContactSearch &search,
   return extents;
 }
 
-/** Faces near nodes of other bodies, each from the rank of its lowest node.
-    Collective. */
+/** Largest extent of a body's faces along an axis [m]. Collective. */
+double widest_face(const NodalState &nodes, const ContactSurface &surface,
+                   MPI_Comm communicator)
+{
+  double widest = 0.;
+  for (const auto &face : surface.faces)
+  {
+    Box box;
+    for (const std::size_t a : face)
+      box.add(nodes.position[a]);
+    for (int d = 0; d < 3; ++d)
+      widest = std::max(widest, box.high[d] - box.low[d]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &widest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return widest;
+}
+
+/** Faces near nodes of other bodies, those around their corners, and those
+    around nodes near other bodies' faces, for their normals; each from the rank
+    of its lowest node. Collective. */
 std::vector<FaceNodes> gather_faces(const ContactSearch &search,
                                     const std::vector<Extent> &extents)
 {
@@ -109,6 +127,8 @@ std::vector<FaceNodes> gather_faces(const ContactSearch &search,
       continue;
     const Body &body = *search.bodies[b];
     const NodalState &nodes = body.nodes();
+    const double widest =
+        widest_face(nodes, search.surfaces[b], search.communicator);
     for (std::size_t f = 0; f < search.surfaces[b].faces.size(); ++f)
     {
       FaceNodes face;
@@ -125,10 +145,16 @@ std::vector<FaceNodes> gather_faces(const ContactSearch &search,
       if (body.node_owner[*std::min_element(face.node.begin(),
                                             face.node.end())] != rank)
         continue;
+      Box with_neighbors = box;
+      with_neighbors.inflate(widest);
       if (std::any_of(search.pairs.begin(), search.pairs.end(),
-                      [&](const ContactPair &pair) {
-                        return pair.faces_of == int(b) &&
-                               box.meets(extents[pair.nodes_of].nodes);
+                      [&](const ContactPair &pair)
+                      {
+                        return (pair.faces_of == int(b) &&
+                                with_neighbors.meets(
+                                    extents[pair.nodes_of].nodes)) ||
+                               (pair.nodes_of == int(b) &&
+                                box.meets(extents[pair.faces_of].faces));
                       }))
         mine.push_back(face);
     }
@@ -204,6 +230,14 @@ ContactMemory recall(const ContactMemories &memories, const NodeKey &key)
                                                         : ContactMemory();
 }
 
+/** The normal of a particle's surface, between one of a smooth part and one of
+    a corner of a box. */
+SmoothNormal normal_of(const SurfacePoint &point)
+{
+  constexpr double corner = 0.85;
+  return {point.normal, corner * (1. - point.flatness)};
+}
+
 /** Append to @p result what the nodes of @p pair that are owned here may
     touch. */
 void try_nodes(const ContactSearch &search, const ContactPair &pair,
@@ -214,12 +248,17 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
   const ContactSurface &surface = search.surfaces[pair.nodes_of];
   const NodalState &nodes = body.nodes();
   const bool with_itself = pair.faces_of == pair.nodes_of;
+  const ParticleView *const particles = body.particles();
   AlignedVector<Vec> areas;
   if (search.with_areas || with_itself)
     areas = node_areas(nodes, surface);
   const OwnFaces own_faces(body, with_itself ? surface : ContactSurface(),
                            areas);
   std::vector<std::int64_t> &near = result.face_of_candidate;
+  std::vector<char> is_loose(particles != nullptr ? nodes.size() : 0, 0);
+  if (particles != nullptr)
+    for (const std::size_t i : particles->debris().nodes)
+      is_loose[i] = 1;
   const auto try_node = [&](const std::size_t i, const double share)
   {
     const Vec x = nodes.position[i];
@@ -246,14 +285,17 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
     const std::int64_t last = near.size();
     if (last > first)
       result.candidates.push_back({key, share, first, last, memory,
-                                   search.with_areas ? areas[i] : Vec{}});
+                                   search.with_areas ? areas[i] : Vec{},
+                                   particles != nullptr && !is_loose[i]
+                                       ? normal_of(particles->surface_point(i))
+                                       : SmoothNormal()});
   };
   if (!pair.loose_nodes_only)
     for (std::size_t k = 0; k < surface.nodes.size(); ++k)
       try_node(surface.nodes[k],
                surface.node_share.empty() ? 1. : surface.node_share[k]);
-  else if (body.particles() != nullptr)
-    for (const std::size_t i : body.particles()->debris().nodes)
+  else if (particles != nullptr)
+    for (const std::size_t i : particles->debris().nodes)
       if (!nodes.is_follower(i)) // followers stay with their leaders
         try_node(i, 1.);
 }

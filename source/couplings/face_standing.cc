@@ -1,4 +1,4 @@
-// Which face holds a node, and how deep.
+// Which face holds a node, how deep, and along which normal.
 #include "sabot/couplings/face_standing.h"
 
 #include <algorithm>
@@ -9,6 +9,51 @@ namespace sabot
 namespace
 {
 constexpr double same_side = 0.5; // least cosine between normals
+// Sideways, in spacings, to which a face reaches beyond its rim: equal
+// cross-sections that meet bulge by unequal fractions of this.
+constexpr double rim = 0.1;
+
+/** The common normal with a node's own, which has no faces to tell how sure it
+    is if @p is_particle: it counts like those of the faces, but they decide
+    where they are planes (to 1e-3), and it where they are rough (0.05). */
+Vec common_normal_of(const SmoothNormal &its, SmoothNormal own,
+                     const bool is_particle)
+{
+  if (is_particle)
+    own.spread += std::clamp(its.spread, 1e-6, 0.0025);
+  return common_normal(its, own);
+}
+
+class MeanNormal
+{
+public:
+  void add(const SmoothNormal &normal)
+  {
+    sum.direction += normal.direction;
+    sum.spread += normal.spread;
+    ++n;
+  }
+  SmoothNormal value() const
+  {
+    return {(1. / norm(sum.direction)) * sum.direction, sum.spread / n};
+  }
+
+private:
+  SmoothNormal sum;
+  int n = 0;
+};
+
+bool is_particle(const NearFaces &node)
+{
+  return norm_square(node.own.direction) > 0.;
+}
+
+Vec normal_of(const std::array<Vec, 4> &x)
+{
+  const Vec area = cross(x[2] - x[0], x[3] - x[1]);
+  const double size = norm(area);
+  return size > 0. ? (1. / size) * area : Vec{};
+}
 } // namespace
 
 void FaceStanding::clear()
@@ -17,9 +62,17 @@ void FaceStanding::clear()
   face_of_node.clear();
 }
 
+std::array<Vec, 4> FaceStanding::places(const std::size_t face) const
+{
+  std::array<Vec, 4> x;
+  for (int a = 0; a < 4; ++a)
+    x[a] = halo.position[corners[face][a]];
+  return x;
+}
+
 std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
                                      FaceProjection &best,
-                                     const Vec *const side) const
+                                     const Side *const side) const
 {
   const Vec p = halo.position[node.slot];
   const double touching = 1e-6 * node.spacing;
@@ -29,16 +82,15 @@ std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
   for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
     const std::size_t f = face_of_node[k];
-    std::array<Vec, 4> x;
-    for (int a = 0; a < 4; ++a)
-      x[a] = halo.position[corners[f][a]];
+    const std::array<Vec, 4> x = places(f);
     // With a margin, so that faces with the same closest point stay in.
     if (closest >= 0 &&
         is_farther(p, x, 1.001 * std::sqrt(best.distance_square) + touching))
       continue;
-    const FaceProjection projection = project_on_face(p, x);
-    if (side != nullptr && dot(projection.face_normal, *side) < same_side)
+    if (side != nullptr &&
+        dot(normal_of(x), side->direction) < side->least_cosine)
       continue;
+    const FaceProjection projection = project_on_face(p, x);
     const bool is_tie =
         std::abs(projection.distance_square - best.distance_square) <=
         1e-10 * best.distance_square;
@@ -57,6 +109,92 @@ std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
   return closest;
 }
 
+SmoothNormal FaceStanding::normal_of_closest(const NearFaces &node,
+                                             const Side &side,
+                                             const FaceProjection &best) const
+{
+  // A node above a corner of several faces takes the mean of all of them, or
+  // its choice would break the symmetry of what meets.
+  const Vec p = halo.position[node.slot];
+  const double distance =
+      std::sqrt(best.distance_square) * (1. + 1e-6) + 1e-9 * node.spacing;
+  MeanNormal mean;
+  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  {
+    const std::size_t f = face_of_node[k];
+    const std::array<Vec, 4> x = places(f);
+    if (is_farther(p, x, distance) ||
+        dot(normal_of(x), side.direction) < side.least_cosine)
+      continue;
+    const FaceProjection projection = project_on_face(p, x);
+    if (projection.distance_square <= distance * distance)
+      mean.add(normals.of_face(f, projection.weight));
+  }
+  return mean.value();
+}
+
+std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec n,
+                                 const Side &side, const double reach,
+                                 FaceHit &found, SmoothNormal &normal) const
+{
+  const Vec p = halo.position[node.slot];
+  const double tie = 1e-9 * node.spacing;
+  std::ptrdiff_t first = -1;
+  MeanNormal mean;
+  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  {
+    const std::size_t f = face_of_node[k];
+    const std::array<Vec, 4> x = places(f);
+    FaceHit here;
+    if (is_farther(p, x, reach) ||
+        dot(normal_of(x), side.direction) < side.least_cosine ||
+        !hit_face(p, n, x, here) ||
+        std::abs(here.ahead) > std::abs(found.ahead) + tie)
+      continue;
+    if (std::abs(here.ahead) < std::abs(found.ahead) - tie)
+    {
+      mean = MeanNormal();
+      found = here;
+      first = f;
+    }
+    mean.add(normals.of_face(f, here.weight));
+  }
+  if (first >= 0)
+    normal = mean.value();
+  return first;
+}
+
+std::ptrdiff_t FaceStanding::stand(const NearFaces &node,
+                                   const SmoothNormal &own, const Side &side,
+                                   const std::ptrdiff_t face,
+                                   FaceProjection &projection) const
+{
+  // The line along the node's own normal, or that of the closest point, leads
+  // to the place with whose normal the line is drawn once more: a step of the
+  // fixed point p - x = gap n(x), whose error falls by depth over radius of
+  // curvature.
+  const double reach =
+      2. * std::sqrt(projection.distance_square) + 1e-3 * node.spacing;
+  SmoothNormal its = {-1. * own.direction, own.spread};
+  if (norm_square(own.direction) == 0. || !is_smooth(own))
+    its = normal_of_closest(node, side, projection);
+  std::ptrdiff_t at = face;
+  for (int repeat = 0; repeat < 2; ++repeat)
+  {
+    const Vec n = common_normal_of(its, own, is_particle(node));
+    FaceHit found;
+    const std::ptrdiff_t f = hit(node, n, side, reach, found, its);
+    if (f < 0)
+      return repeat == 0 ? -1 : at;
+    at = f;
+    projection.gap = projection.along = -found.ahead;
+    projection.normal = projection.face_normal = n;
+    projection.weight = found.weight;
+    projection.distance_square = found.ahead * found.ahead;
+  }
+  return at;
+}
+
 Vec FaceStanding::velocity_against(const NearFaces &node,
                                    const std::ptrdiff_t face,
                                    const FaceProjection &projection) const
@@ -67,43 +205,78 @@ Vec FaceStanding::velocity_against(const NearFaces &node,
   return v;
 }
 
-std::ptrdiff_t FaceStanding::holding(const NearFaces &node,
-                                     ContactMemory &memory,
-                                     FaceProjection &best,
-                                     const double dt) const
+std::ptrdiff_t FaceStanding::try_hold(const NearFaces &node,
+                                      const SmoothNormal &own, const Side &side,
+                                      const bool may_be_deep,
+                                      FaceProjection &projection,
+                                      const double dt) const
 {
-  // Sideways, in spacings, to which a face reaches beyond its rim: equal
-  // cross-sections that meet bulge by unequal fractions of this.
-  constexpr double rim = 0.1;
-  const std::ptrdiff_t nearest = closest(node, best);
+  FaceProjection held;
+  const std::ptrdiff_t nearest = closest(node, held, &side);
   if (nearest < 0)
     return -1;
-  const bool was_inside = memory.depth > 0.,
-             has_side = norm_square(memory.side) > 0.;
-  const double tolerance = rim * node.spacing;
-  if (has_side && (was_inside || best.gap < tolerance) &&
-      !(best.gap < 0. && dot(best.face_normal, memory.side) >= same_side))
+  std::ptrdiff_t f = stand(node, own, side, nearest, held);
+  if (f < 0)
   {
-    FaceProjection held;
-    const std::ptrdiff_t f = closest(node, held, &memory.side);
-    if (f >= 0 && held.along < 0.)
-    {
-      const double sideways = std::sqrt(
-          std::max(0., held.distance_square - held.along * held.along));
-      // The most that the node may have moved against the face in the step.
-      const double motion = 2. * norm(velocity_against(node, f, held)) * dt;
-      if (sideways < tolerance && (was_inside || -held.along <= motion))
-      {
-        best = held;
-        // Let go gradually past the rim.
-        best.gap = held.along * (1. - sideways / tolerance);
-        best.normal = held.face_normal;
-        memory.side = held.face_normal;
-        return f;
-      }
-    }
+    // Let go gradually past the rim; what is as far beside as half its depth
+    // is still below.
+    const double tolerance = rim * node.spacing,
+                 sideways =
+                     std::sqrt(std::max(0., held.distance_square -
+                                                held.along * held.along)) -
+                     0.5 * std::abs(held.along);
+    if (sideways >= tolerance)
+      return -1;
+    f = nearest;
+    held.gap = held.along * (1. - std::max(0., sideways) / tolerance);
+    held.normal = common_normal_of(normal_of_closest(node, side, held), own,
+                                   is_particle(node));
+    held.face_normal = held.normal;
   }
-  memory.side = best.face_normal;
-  return best.gap < 0. ? nearest : -1;
+  if (held.along >= 0.)
+    return -1;
+  // The most that the node may have moved against the face in the step.
+  if (!may_be_deep &&
+      -held.along >
+          2. * std::abs(dot(velocity_against(node, f, held), held.normal)) * dt)
+    return -1;
+  projection = held;
+  return f;
+}
+
+std::ptrdiff_t FaceStanding::holding(const NearFaces &node,
+                                     ContactMemory &memory,
+                                     FaceProjection &projection,
+                                     double &nearest, const double dt) const
+{
+  FaceProjection any;
+  const std::ptrdiff_t of_all = closest(node, any, nullptr);
+  nearest = std::sqrt(any.distance_square);
+  if (of_all < 0)
+    return -1;
+  const bool was_inside = memory.depth > 0.,
+             is_inside = any.gap<0., has_side = norm_square(memory.side)> 0.;
+  std::ptrdiff_t f = -1;
+  if (was_inside || any.gap < rim * node.spacing)
+  {
+    SmoothNormal own = normals.of_node(node.slot);
+    if (norm_square(own.direction) == 0.)
+      own = node.own;
+    const bool has_own = norm_square(own.direction) > 0.;
+    if (has_side && (was_inside || !has_own))
+      f = try_hold(node, own, {memory.side, same_side},
+                   was_inside || (is_inside && dot(any.face_normal,
+                                                   memory.side) >= same_side),
+                   projection, dt);
+    if (f < 0 && has_own)
+      f = try_hold(node, own,
+                   {-1. * own.direction, least_cosine_of_met_faces(own)},
+                   is_inside, projection, dt);
+    else if (f < 0 && is_inside)
+      f = try_hold(node, own, {any.face_normal, same_side}, true, projection,
+                   dt);
+  }
+  memory.side = f >= 0 ? projection.face_normal : any.face_normal;
+  return f;
 }
 } // namespace sabot

@@ -256,8 +256,8 @@ void ParticleContact::press(const std::size_t number, const double dt)
       memory.effective_depth(-standing.gap, 2. * norm(point.velocity) * dt);
   if (point.depth <= 0.)
     return;
-  point.stiffness =
-      options.stable_stiffness(group.stiffness, point.reduced_mass, dt);
+  point.stiffness = options.stable_stiffness(
+      group.stiffness, point.reduced_mass, points.steady_step.value);
   point.area = group.area;
   point.largest_friction = largest_friction(group, at);
   point.memory = &memory;
@@ -298,6 +298,7 @@ void ParticleContact::add_forces(const double dt)
   n_deep = 0;
   points.clear();
   touched.clear();
+  points.steady_step.follow(dt);
   for (std::size_t g = 0; g < groups.size(); ++g)
     press(g, dt);
   points.find_forces(options, dt);
@@ -336,6 +337,7 @@ void ParticleContact::visit_state(StateVisitor &visitor)
   visitor.visit_value("traveled", traveled);
   visitor.visit_value("allowance", allowance);
   visitor.visit_value("penetration", penetration_over_spacing);
+  visitor.visit_value("steady step", points.steady_step.value);
   // Candidates were found where the bodies were at the last search.
   visitor.visit_resized("groups", groups);
   visitor.visit_resized("members", members);

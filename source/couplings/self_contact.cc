@@ -251,7 +251,7 @@ void SelfContact::push(const ContactPoint &on_second)
   const Pair &pair = pairs[on_second.item];
   const std::size_t a = pair.slot[0], b = pair.slot[1];
   const Vec normal = on_second.pressing * on_second.normal,
-            friction = -on_second.drag * on_second.sliding;
+            friction = on_second.friction;
   forces.normal[a] -= normal;
   forces.friction[a] -= friction;
   if (forces.pairs.any())

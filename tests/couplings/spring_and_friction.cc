@@ -115,7 +115,8 @@ TEST(Friction, acts_against_the_sliding_below_all_limits)
   EXPECT_DOUBLE_EQ(friction[0], -0.12);
   EXPECT_DOUBLE_EQ(friction[1], -0.16);
   EXPECT_EQ(friction[2], 0.);
-  // No more than stops the sliding in the step: m |v|/(2 dt) = 0.5 mN.
+  // A spring of a pair remembers nothing, and has no more than stops the
+  // sliding in two steps: m |v|/(2 dt) = 0.5 mN.
   ContactPoint slow = pressed;
   slow.velocity = vec(1e-5, 0., 0.);
   EXPECT_DOUBLE_EQ(answer(slow, options).friction_force()[0], -0.5e-3);
@@ -124,6 +125,45 @@ TEST(Friction, acts_against_the_sliding_below_all_limits)
   soft.largest_friction = ShearStrength::given(5e4).value() * soft.area;
   EXPECT_DOUBLE_EQ(norm(answer(soft, options).friction_force()), 0.05);
   EXPECT_DOUBLE_EQ(ShearStrength::of_metals(3e6, 1e6), 1e6 / std::sqrt(3.));
+}
+
+TEST(Friction, what_slides_has_all_of_it_and_what_sticks_does_not_creep)
+{
+  const Vec n = vec(0., 0., 1.);
+  const double k = 1e6, c = 0.2, d = 1e-6;
+  ContactMemory memory;
+  const auto friction = [&](const Vec v, const double largest)
+  { return spring_friction(memory, n, v, d, k, c, largest, dt); };
+  // What comes in along a slope has slid as far as it is deep.
+  EXPECT_DOUBLE_EQ(friction(vec(3., 0., -4.), 10.)[0],
+                   -(k * d * 0.6 + k * 3. * dt + c * 3.));
+  // Then a spring along the way, until it gives way, against the sliding.
+  memory = ContactMemory();
+  memory.spring = n;
+  EXPECT_DOUBLE_EQ(friction(vec(2., 0., 1.), 1.)[0], -(k * 2. * dt + c * 2.));
+  Vec f = {};
+  for (int step = 0; step < 20; ++step)
+    f = friction(vec(10., 0., 0.), 1.);
+  EXPECT_DOUBLE_EQ(f[0], -1.);
+  for (int step = 0; step < 200; ++step)
+    f = friction(vec(0., 30., 0.), 1.);
+  EXPECT_NEAR(f[1], -1., 1e-6);
+  EXPECT_NEAR(norm(f), 1., 1e-12);
+  // At rest it bears what it bore.
+  for (int step = 0; step < 1000; ++step)
+    EXPECT_DOUBLE_EQ(friction(Vec{}, 1.)[1], f[1]);
+  // It turns with the surface, and holds less where less presses.
+  memory.friction = vec(0., 0.3, 0.4);
+  EXPECT_DOUBLE_EQ(friction(Vec{}, 1.)[1], 0.5);
+  EXPECT_DOUBLE_EQ(friction(Vec{}, 0.25)[1], 0.25);
+}
+
+TEST(Spring, its_bound_does_not_follow_every_step)
+{
+  SteadyStep step;
+  EXPECT_EQ(step.follow(1e-8), 1e-8);
+  EXPECT_EQ(step.follow(1.1e-8), 1.1e-8);
+  EXPECT_DOUBLE_EQ(step.follow(1e-9), 0.999 * 1.1e-8);
 }
 
 /** A law of its own: one object in one file. */

@@ -73,21 +73,27 @@ private:
     double patch_radius = 0.;
     double share = 1.; // ContactSurface::node_share
   };
-  /** A group as a checkpoint holds it, by global numbers; the nodes of its
-     faces stand apart, four a face. Written bit by bit. */
+  /** A group as a checkpoint holds it, by global numbers; its faces stand
+     apart. Written bit by bit. */
   struct SavedGroup
   {
     NodeKey node;
     std::int64_t n_faces;
     double stiffness, spacing, area;
     Vec area_vector;
+    SmoothNormal own;
     ContactMemory memory;
     double wake, patch_radius, share;
   };
+  struct SavedGroups
+  {
+    std::vector<SavedGroup> groups;
+    std::vector<std::int64_t> face_of_node; // FaceStanding::face_of_node
+    std::vector<NodeKey> face_nodes;        // four a face
+  };
   /** Halo, groups and faces as they were: candidates cannot be found anew, for
       the bodies moved since the last search. Collective. */
-  void restore_groups(const std::vector<SavedGroup> &saved,
-                      const std::vector<NodeKey> &face_nodes);
+  void restore_groups(const SavedGroups &saved);
   /** Ask the bodies of all pairs for their surfaces, which erosion changes. */
   void update_surfaces();
   /** ContactPatch::radius() between two bodies [m]. */

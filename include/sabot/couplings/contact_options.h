@@ -10,8 +10,8 @@ namespace sabot
 /**
  * What contact and self-contact have in common: the spring, the law of
  * friction, and what the metals bear of it. The force of friction on a node is
- * the least of what the law asks for, the shear strength times the node's area,
- * and what stops the sliding within the step (ContactPoints::find_forces()).
+ * at most what the law asks for and the shear strength times the node's area
+ * (ContactPoints::find_forces()).
  */
 struct ContactOptions : SpringOptions
 {

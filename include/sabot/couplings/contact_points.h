@@ -29,15 +29,14 @@ struct ContactPoint
   std::size_t first_touched = 0, last_touched = 0;
 
   // Set by find_forces(). On the node act part * pressing * normal and
-  // -part * drag * sliding; the opposite, in parts, on what it touches.
-  Vec sliding;     // velocity along the surface [m/s]
+  // part * friction; the opposite, in parts, on what it touches.
   double pressing; // k depth + c max(0, -v . n) [N]
-  double drag;     // friction over the speed of sliding [N s/m]
+  Vec friction;    // along the surface [N]
   double part;     // that the work of the spring bears, times fade
 
   /** On the node [N]. */
   Vec normal_force() const { return part * (pressing * normal); }
-  Vec friction_force() const { return part * (-drag * sliding); }
+  Vec friction_force() const { return part * friction; }
 };
 
 /**
@@ -53,11 +52,15 @@ public:
   /** Before a new step; memory is kept. */
   void clear() { points.clear(); }
   void add(const ContactPoint &point) { points.push_back(point); }
-  /** Penalty and damping while approaching (SpringOptions), friction of the
-      law below what the metals bear and what stops the sliding within the
-      step, and of both the part that is backed. @p dt: the step just made [s],
-      > 0. Local to a rank. */
+  /** Penalty and damping while approaching (SpringOptions), friction by
+      spring_friction() below that of the law and what the metals bear, and of
+      both the part that is backed. Springs of pairs, which remember nothing,
+      have friction below what stops the sliding within two steps. @p dt: the
+      step just made [s], > 0. Local to a rank. */
   void find_forces(const ContactOptions &options, const double dt);
+  /** That bounds the stiffnesses of the points; the coupling lets it follow its
+      steps and keeps it in checkpoints. */
+  SteadyStep steady_step;
 
   std::vector<ContactPoint>::const_iterator begin() const
   {
@@ -67,8 +70,8 @@ public:
 
 private:
   std::vector<ContactPoint> points;
-  SlidingContacts contacts;     // parallel to points, for the law
-  std::vector<double> friction; // [N]
+  SlidingContacts contacts;    // parallel to points, for the law
+  std::vector<double> largest; // friction that the law allows [N]
 };
 } // namespace sabot
 

@@ -3,6 +3,7 @@
 
 #include "sabot/couplings/contact_spring.h"
 #include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/surface_normals.h"
 #include "sabot/kernels/closest_point.h"
 
 namespace sabot
@@ -34,10 +35,13 @@ struct ContactCandidate
   std::int64_t first_face, last_face; // of SearchResult::face_of_candidate
   ContactMemory memory;
   Vec area; // quarters of the vectors of its own faces, where asked for [m^2]
+  SmoothNormal own; // of a particle on a sound surface
 };
 
 /** What a search found; the same on every rank. A node that may touch several
-    bodies has one candidate for each, one after the other. */
+    bodies has one candidate for each, one after the other. Among the faces are
+    all around the corners of those that a node may touch, and around the nodes
+    of candidates. */
 struct SearchResult
 {
   std::vector<FaceNodes> faces;                // sorted by body and id

@@ -42,6 +42,24 @@ struct SpringOptions
 };
 
 /**
+ * The step that bounds stiffnesses: at least the present one, and falling by no
+ * more than a thousandth each time. Steps of particles go up and down by a
+ * percent, and the last one of a run is any; stiffnesses that followed them
+ * would shake what rests.
+ */
+class SteadyStep
+{
+public:
+  /** @return the bound's step after one of @p dt [s]. */
+  double follow(const double dt)
+  {
+    value = std::max(dt, 0.999 * value);
+    return value;
+  }
+  double value = 0.; // [s]; goes into checkpoints
+};
+
+/**
  * What is known of a node's past contact. A node that is found inside without
  * having come in through a surface (at the start, or because the closest part
  * of it changed) repels only below the depth at which it was found: no energy
@@ -56,12 +74,13 @@ struct ContactMemory
       its force on the node at the last step [N]. */
   double stored = 0.;
   Vec spring = {};
+  Vec friction = {}; // on the node at the last step [N]
 
   /** The node is outside: it may come in anew. The side stays known. */
   void release()
   {
     depth = offset = stored = 0.;
-    spring = Vec{};
+    spring = friction = Vec{};
   }
 
   /** Part of @p new_depth that repels [m].
@@ -100,6 +119,45 @@ inline double backed_part(ContactMemory &memory, const Vec spring, const Vec v,
   memory.stored = std::max(0., memory.stored - part * work);
   memory.spring = part * spring;
   return part;
+}
+
+/**
+ * Friction on a node: a spring along the surface that gives way at the
+ * @p largest force, Coulomb's of an elastic bond (Cundall and Strack 1979),
+ *
+ *     f' = f_old - k v_t dt - c v_t,   f = f' min(1, largest/|f'|).
+ *
+ * where what has just met starts with f_old = -k d v_t/|v|, as if it had come
+ * in along its velocity. What slides has all of the friction, whatever the
+ * step, and what sticks does not creep, for its spring bears a load without
+ * moving. A bound by what stops the node within the step has neither: the mass
+ * of a node that bears its body's pressure is worth less than the friction on
+ * it. Before backed_part(), which tells it whether both have just met.
+ * @param normal: unit, of the surface; the force of the last step turns with
+ *   it. @p velocity: of the node against what it touches [m/s]; @p depth [m],
+ *   @p k [N/m], @p c [N s/m], @p dt [s].
+ */
+inline Vec spring_friction(ContactMemory &memory, const Vec normal,
+                           const Vec velocity, const double depth,
+                           const double k, const double c, const double largest,
+                           const double dt)
+{
+  const Vec v = velocity - dot(velocity, normal) * normal;
+  Vec old = memory.friction - dot(memory.friction, normal) * normal;
+  const double before = norm(memory.friction), after = norm(old);
+  if (after > 0.)
+    old *= before / after;
+  const double speed = norm(velocity);
+  if (norm_square(memory.spring) == 0. && speed > 0.)
+    old = (-k * depth / speed) * v;
+  const auto held = [largest](const Vec f)
+  {
+    const double size = norm(f);
+    return size > largest ? (largest / size) * f : f;
+  };
+  const Vec spring = old - (k * dt) * v;
+  memory.friction = held(spring);
+  return held(spring - c * v);
 }
 } // namespace sabot
 

@@ -2,8 +2,9 @@
 #define sabot_couplings_face_standing_h
 
 #include "sabot/couplings/contact_spring.h"
-#include "sabot/couplings/node_halo.h"
+#include "sabot/couplings/surface_normals.h"
 #include "sabot/kernels/closest_point.h"
+#include "sabot/kernels/face_hit.h"
 
 #include <array>
 #include <vector>
@@ -16,54 +17,107 @@ struct NearFaces
   std::size_t slot;                  // of the halo
   std::size_t first_face, last_face; // of FaceStanding::face_of_node
   double spacing;                    // of the node's body [m]
+  /** Of a node without faces of its own, as of the last search; without a
+      direction where it has none. */
+  SmoothNormal own = {};
 };
 
 /**
  * Where nodes stand against faces, in the current frame: which of the near
- * faces holds a node, and how deep. A face is four triangles around its center
- * (project_on_face()); gaps are negative inside, normals point outwards.
+ * faces holds a node, and how deep. A face is four triangles around its center;
+ * gaps are negative inside, normals point outwards.
+ *
+ * A node is met only by faces that look against its own surface
+ * (least_cosine_of_met_faces()), and stands above the place from which the
+ * common_normal() leads to it. That direction does not jump from face to face,
+ * and neither do place and gap.
  */
 class FaceStanding
 {
 public:
   /** @p halo: holds positions and velocities of all corners and nodes; must
       outlive this object. */
-  explicit FaceStanding(const NodeHalo &halo) : halo(halo) {}
+  explicit FaceStanding(const NodeHalo &halo)
+      : halo(halo), normals(halo, corners)
+  {
+  }
+  FaceStanding(const FaceStanding &) = delete; // normals refer to corners
 
-  std::vector<std::array<std::size_t, 4>> corners; // per face, slots
+  /** Per face, slots; with the faces around all corners of those in
+      face_of_node, and around all nodes that have faces. */
+  std::vector<std::array<std::size_t, 4>> corners;
   std::vector<std::size_t> face_of_node; // indices of corners, node by node
 
   void clear();
+  /** Once faces and halo are there; arguments of SurfaceNormals::build(). */
+  void build_normals(const std::vector<std::vector<SymmetryPlane>> &planes,
+                     const double nearness)
+  {
+    normals.build(planes, nearness);
+  }
 
+  /**
+   * The face that holds a node, with a negative gap in @p projection. A node
+   * inside is held by the closest of the faces that look the way of the one it
+   * last met (ContactMemory::side), one that comes in by the closest of those
+   * that look against its own surface; a node without a normal of its own by
+   * those that look the way of the side it last met, or of the closest face. So
+   * neither aligned edges slip through each other nor does a side face catch
+   * what slides under an edge. A face reaches 0.1 spacings beyond its rim for
+   * nodes that are inside or came in through its plane within the last step,
+   * the gap fading to zero there. @p memory: the side follows.
+   * @param nearest: distance to the closest of all faces [m]; infinite where
+   *   there is none.
+   * @return the face, -1 when none holds it (@p projection is then
+   *   meaningless).
+   */
+  std::ptrdiff_t holding(const NearFaces &node, ContactMemory &memory,
+                         FaceProjection &projection, double &nearest,
+                         const double dt) const;
+
+private:
+  /** Faces whose normal has at least this cosine with the direction. */
+  struct Side
+  {
+    Vec direction;
+    double least_cosine;
+  };
   /**
    * Closest of a node's faces. Of faces that share the closest edge the one
    * that faces the node more squarely tells the right side; of faces that it
    * touches (closer than 1e-6 spacings) the one it moves against.
-   * @param side: if given, only faces whose normal is within 60 degrees of it.
+   * @param side: if given, only faces of that side.
    * @return the face, -1 when there is none (@p projection is then left).
    */
   std::ptrdiff_t closest(const NearFaces &node, FaceProjection &projection,
-                         const Vec *const side = nullptr) const;
-
-  /**
-   * The face that holds a node, with a negative gap in @p projection. A node
-   * inside, or one that came through within the last step, is held by the
-   * closest of the faces that look the way of the one it last met
-   * (ContactMemory::side), not by the closest of all, so that aligned edges
-   * cannot slip through each other; such a face reaches 0.1 spacings beyond its
-   * rim, its gap fading to zero there. @p memory: the side follows.
-   * @return the face, -1 when none holds it (@p projection is then of the
-   *   closest).
-   */
-  std::ptrdiff_t holding(const NearFaces &node, ContactMemory &memory,
-                         FaceProjection &projection, const double dt) const;
-
-private:
+                         const Side *const side) const;
+  /** Where the node stands against the faces of a side, whose closest is
+      @p face with @p projection. @return the face above or below which it
+      stands, -1 beyond the rim (@p projection is then left). */
+  std::ptrdiff_t stand(const NearFaces &node, const SmoothNormal &own,
+                       const Side &side, const std::ptrdiff_t face,
+                       FaceProjection &projection) const;
+  /** Mean normal of the faces of a side that are as close as @p best. */
+  SmoothNormal normal_of_closest(const NearFaces &node, const Side &side,
+                                 const FaceProjection &best) const;
+  /** Where the line from the node along @p n meets the faces of a side, at the
+      first place. @p mean: of the normals there, for at an edge faces that have
+      little in common say different ones. @return a face; -1: none is met. */
+  std::ptrdiff_t hit(const NearFaces &node, const Vec n, const Side &side,
+                     const double reach, FaceHit &found,
+                     SmoothNormal &mean) const;
+  /** The face of a side that holds the node. @p may_be_deep: it is known to be
+      inside; else it must have come through in the last step. */
+  std::ptrdiff_t try_hold(const NearFaces &node, const SmoothNormal &own,
+                          const Side &side, const bool may_be_deep,
+                          FaceProjection &projection, const double dt) const;
+  std::array<Vec, 4> places(const std::size_t face) const;
   /** Velocity of the node against the face's closest point [m/s]. */
   Vec velocity_against(const NearFaces &node, const std::ptrdiff_t face,
                        const FaceProjection &projection) const;
 
   const NodeHalo &halo;
+  SurfaceNormals normals;
 };
 } // namespace sabot
 

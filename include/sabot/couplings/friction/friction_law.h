@@ -21,8 +21,8 @@ struct SlidingContacts
 /**
  * Size of the friction between two surfaces that slide on each other; it acts
  * against the sliding. A law says what the pair of surfaces would like. Whoever
- * asks then holds it below what the metals bear (ShearStrength) and below what
- * stops the sliding within the step, m_red |v_t|/(2 dt).
+ * asks then holds it below what the metals bear (ShearStrength), and has less
+ * than it of what sticks (spring_friction()).
  *
  * A law is one file in source/couplings/friction that ends with
  *

@@ -1,0 +1,87 @@
+#ifndef sabot_couplings_surface_normals_h
+#define sabot_couplings_surface_normals_h
+
+#include "sabot/couplings/mirror_images.h"
+#include "sabot/couplings/node_halo.h"
+
+#include <array>
+#include <vector>
+
+namespace sabot
+{
+/** The normal of a surface of faces at a place. */
+struct SmoothNormal
+{
+  Vec direction = {}; // unit, outward; zero: there is none
+  /** How far the faces around differ from it: with their area vectors A_i,
+      2 (1 - |sum A_i|/sum |A_i|), the mean of the squares of their angles to
+      it. 0 on a plane, 0.59 on an edge and 0.85 on a corner of a box. */
+  double spread = 0.;
+};
+
+/** Whether a node's own normal has a say in the common one. */
+bool is_smooth(const SmoothNormal &own);
+
+/**
+ * The direction along which two surfaces press on each other, as the outward
+ * normal of @p its: the mean of the two normals, each with the inverse of its
+ * spread, for that is how far it may be off. So a plane decides before what is
+ * bent, a fine mesh before a coarse one, and two equal ones share; from where
+ * faces differ by 25 degrees an own normal fades, and an edge has none.
+ */
+Vec common_normal(const SmoothNormal &its, const SmoothNormal &own);
+
+/**
+ * Least cosine between a face's normal and the opposite of a node's own normal
+ * for which the face may meet the node: within 40 degrees of the directions in
+ * which the node is the foremost of its body, which is the own normal on a
+ * smooth surface and the cone of the faces around it, cos = 1 - spread/2 wide,
+ * on edges and corners. (A node in the middle of a plane meets no face that
+ * stands on the plane, however near.)
+ */
+double least_cosine_of_met_faces(const SmoothNormal &own);
+
+/**
+ * Normals of surfaces of quadrilaterals that do not jump from face to face:
+ * means over the faces around a node, by area, carried on along each face by
+ * the weights of its corners. Faces that differ by more than 32 to 46 degrees
+ * have less to none in common, so that edges stay sharp. Planes of symmetry are
+ * mirrors. In the current configuration; local to a rank, the same on all that
+ * have the faces, as sums run in the order of the faces.
+ */
+class SurfaceNormals
+{
+public:
+  using Corners = std::vector<std::array<std::size_t, 4>>;
+
+  /** Both must outlive this object. @p corners: slots of each face, outward
+      by the right-hand rule; complete around all nodes that are asked for. */
+  SurfaceNormals(const NodeHalo &halo, const Corners &corners)
+      : halo(halo), corners(corners)
+  {
+  }
+  /** For the present faces and slots. @p planes: of symmetry, by body;
+      @p nearness: within which a node lies on one [m]. */
+  void build(const std::vector<std::vector<SymmetryPlane>> &planes,
+             const double nearness);
+  /** Of a node among all of its faces. */
+  SmoothNormal of_node(const std::size_t slot) const;
+  /** Of face number @p face at the place with these weights of its corners. */
+  SmoothNormal of_face(const std::size_t face,
+                       const std::array<double, 4> &weight) const;
+
+private:
+  /** Sum of the area vectors of the faces around a node, and of their sizes;
+      with @p like, a unit normal, of those that look the same way. */
+  SmoothNormal around(const std::size_t slot, const Vec *const like) const;
+  Vec area_of(const std::size_t face) const;
+
+  const NodeHalo &halo;
+  const Corners &corners;
+  std::vector<std::size_t> first_of_slot, face_of_slot; // ascending
+  std::vector<std::vector<SymmetryPlane>> planes;       // by body
+  double nearness = 0.;
+};
+} // namespace sabot
+
+#endif
