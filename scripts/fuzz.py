@@ -27,7 +27,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -328,7 +327,7 @@ class Fuzzer:
             resource.setrlimit(resource.RLIMIT_AS, (size, size))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-    def call(self, words, where):
+    def call(self, words, where, timeout=None):
         """Exit code (None: no answer in time) and what was said."""
         log = os.path.join(where, "answer.txt")
         with open(log, "wb") as out:
@@ -337,14 +336,14 @@ class Fuzzer:
                     [self.arguments.program] + words, stdout=out, cwd=where,
                     stdin=subprocess.DEVNULL, stderr=subprocess.STDOUT,
                     env=self.environment, preexec_fn=self.limit,
-                    timeout=self.arguments.timeout).returncode
+                    timeout=timeout or self.arguments.timeout).returncode
             except subprocess.TimeoutExpired:
                 code = None
         with open(log, "rb") as out:
             return code, out.read().decode(errors="replace")
 
     def find_scenes(self, seconds):
-        """Scenes that are checked in so many seconds."""
+        """Scenes that take so many seconds of the processor at most."""
         for top in ("prm", "tests/scenes"):
             for where, _, names in os.walk(os.path.join(self.folder, top)):
                 for name in sorted(names):
@@ -352,9 +351,12 @@ class Fuzzer:
                     text = open(file, "rb").read()
                     if not name.endswith(".prm") or b"List of" not in text:
                         continue
-                    start = time.time()
-                    code, _ = self.call(["check", file], self.folder)
-                    if code == 0 and time.time() - start < seconds:
+                    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                    code, _ = self.call(["check", file], self.folder,
+                                        4. * seconds)
+                    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                    if (code == 0
+                            and after.ru_utime - before.ru_utime < seconds):
                         self.scenes.append((file, text))
         if not self.scenes:
             sys.exit("no scene of prm and tests/scenes is valid")
@@ -445,7 +447,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="sabot-fuzz-") as folder:
         fuzzer = Fuzzer(arguments, folder)
         if arguments.only != "meshes":
-            fuzzer.find_scenes(10. if arguments.sanitized else 2.)
+            fuzzer.find_scenes(8. if arguments.sanitized else 0.8)
         print("%d scenes, %d meshes" % (len(fuzzer.scenes), len(fuzzer.meshes)))
         numbers = range(arguments.first, arguments.first + arguments.inputs)
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:

@@ -148,5 +148,7 @@ TEST(Abaqus, says_which_line_is_wrong)
   EXPECT_TRUE(has(bad(nodes + "*Element, type=C3D4, elset=t\n1, 1,1,1,1\n"),
                   "line 3: elements of type C3D4"));
   EXPECT_TRUE(has(bad(""), "it is empty"));
+  // Bytes that are no characters come into no message.
+  EXPECT_TRUE(has(bad(nodes + "*Nset, nset=a\n\xE4\x01z\n"), "\"??z\""));
 }
 } // namespace

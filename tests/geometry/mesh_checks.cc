@@ -37,6 +37,15 @@ TEST(MeshChecks, doubled_nodes_are_told_and_joined)
   EXPECT_EQ(joined.mesh.boundary_faces.size(), 24u);
 }
 
+TEST(MeshChecks, hinges_are_told)
+{
+  Block block;
+  block.cells = {block.cells[0], block.cells[3]};
+  const NamedMesh made = read_text("hinge.inp", block.abaqus());
+  ASSERT_EQ(made.warnings.size(), 1u);
+  EXPECT_TRUE(has(made.warnings[0], "2 pieces of cells that share faces"));
+}
+
 TEST(MeshChecks, cells_that_stand_twice_or_overlap_are_refused)
 {
   Block block;

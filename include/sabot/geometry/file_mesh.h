@@ -79,6 +79,10 @@ struct FileMesh
   }
 };
 
+/** @p text for logs and messages: bytes that are no characters as "?", and not
+    endless. */
+std::string printable(const std::string &text);
+
 /** A mesh file, and the entry that names it. */
 struct MeshFile
 {

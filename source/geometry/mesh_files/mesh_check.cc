@@ -221,10 +221,12 @@ private:
                 return a.sorted != b.sorted ? a.sorted < b.sorted
                                             : a.cell < b.cell;
               });
+    separate(mesh.cells.size());
     for (std::size_t i = 1; i < sides.size(); ++i)
     {
       if (sides[i].sorted != sides[i - 1].sorted)
         continue;
+      parent[root(sides[i].cell)] = root(sides[i - 1].cell);
       if (i > 1 && sides[i].sorted == sides[i - 2].sorted)
         file.refuse("a face has more than two cells, among them " +
                     cell(sides[i].cell) + " and " +
@@ -234,30 +236,40 @@ private:
                     mesh.name_of_cell(sides[i - 1].cell) +
                     " lie on the same side of their common face: they overlap");
     }
+    n_of_faces = count_roots();
   }
 
+  /** Forest of pieces: each entry its own, to be joined. */
+  void separate(const std::size_t n)
+  {
+    parent.resize(n);
+    std::iota(parent.begin(), parent.end(), 0);
+  }
   std::size_t root(std::size_t i)
   {
     while (parent[i] != i)
       i = parent[i] = parent[parent[i]];
     return i;
   }
+  std::size_t count_roots() const
+  {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < parent.size(); ++i)
+      n += parent[i] == i;
+    return n;
+  }
 
-  /** Cells that share nodes are a piece. */
+  /** Cells that share nodes are a piece; @p joined: coincident ones, too. */
   std::size_t count(const bool joined)
   {
-    parent.resize(mesh.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
+    separate(mesh.vertices.size());
     if (joined)
       for (std::size_t i = 0; i < first.size(); ++i)
         parent[root(i)] = root(first[i]);
     for (const auto &nodes : mesh.cells)
       for (const FileIndex a : nodes)
         parent[root(a)] = root(nodes[0]);
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < parent.size(); ++i)
-      n += parent[i] == i;
-    return n;
+    return count_roots();
   }
 
   void count_pieces()
@@ -280,6 +292,10 @@ private:
       said += ": nothing holds them together";
     if (!said.empty())
       mesh.warnings.push_back(said);
+    if (n_of_faces > n_pieces)
+      mesh.warnings.push_back(plural(n_of_faces, "piece") +
+                              " of cells that share faces hang together by "
+                              "edges or corners only, as hinges");
   }
 
   void say()
@@ -322,9 +338,9 @@ private:
   const MeshFile &file;
   const MeshWish &wish;
   std::vector<std::size_t> first;  // of coincident vertices
-  std::vector<std::size_t> parent; // of vertices, towards their piece's root
+  std::vector<std::size_t> parent; // of vertices or cells, towards the root
   double nearness = 0.;            // of coincident ones
-  std::size_t n_coincident = 0, n_pieces = 0;
+  std::size_t n_coincident = 0, n_pieces = 0, n_of_faces = 0;
   Vec coincident = {};
 };
 } // namespace

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -141,11 +140,22 @@ FileMesh read_by_meshio(const MeshFile &file)
 
 FileMesh read_mesh_file(const MeshFile &file)
 {
-  // Before any program sees it: whether it is there.
-  if (!std::ifstream(file.name))
-    throw InputError(file.path,
-                     "cannot open the mesh file \"" + file.name + "\"");
   const auto reader = reader_for(ending_of(file.name));
-  return reader ? reader->read(file) : read_by_meshio(file);
+  if (!reader)
+    file.text(); // is it there at all?
+  FileMesh mesh = reader ? reader->read(file) : read_by_meshio(file);
+  const auto clean = [](auto &sets)
+  {
+    for (auto &set : sets)
+      set.name = printable(set.name);
+  };
+  clean(mesh.cell_sets);
+  clean(mesh.face_sets);
+  clean(mesh.node_sets);
+  clean(mesh.unusable);
+  for (auto *const lines : {&mesh.notes, &mesh.warnings, &mesh.prefixes})
+    for (std::string &line : *lines)
+      line = printable(line);
+  return mesh;
 }
 } // namespace sabot

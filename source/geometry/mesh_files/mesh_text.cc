@@ -4,10 +4,10 @@
 #include "sabot/base/text.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <sys/stat.h>
 
 namespace sabot
@@ -28,13 +28,26 @@ std::string_view without_plus(std::string_view word)
   return word;
 }
 
-/** What stood there, short enough for a message and free of odd bytes. */
+/** Length of the character of UTF-8 that begins at @p at; 0: there is none. */
+std::size_t length_of_character(const std::string &text, const std::size_t at)
+{
+  const unsigned char first = text[at];
+  const std::size_t n = first < 0x80                    ? 1
+                        : first >= 0xC2 && first < 0xE0 ? 2
+                        : first >= 0xE0 && first < 0xF0 ? 3
+                        : first >= 0xF0 && first < 0xF5 ? 4
+                                                        : 0;
+  bool is_whole = n > 0 && at + n <= text.size();
+  for (std::size_t i = 1; is_whole && i < n; ++i)
+    is_whole = (static_cast<unsigned char>(text[at + i]) & 0xC0) == 0x80;
+  return is_whole ? n : 0;
+}
+
 std::string quoted(const std::string_view word)
 {
-  std::string shown;
-  for (const char c : word.substr(0, 40))
-    shown += c >= ' ' && c <= '~' ? c : '?';
-  return "\"" + shown + (word.size() > 40 ? "...\"" : "\"");
+  constexpr std::size_t most = 40;
+  return "\"" + std::string(word.substr(0, most)) +
+         (word.size() > most ? "...\"" : "\"");
 }
 } // namespace
 
@@ -69,22 +82,37 @@ std::optional<double> real_number(std::string_view word)
   return value;
 }
 
+std::string printable(const std::string &text)
+{
+  constexpr std::size_t most = 1000;
+  std::string shown;
+  for (std::size_t at = 0; at < text.size() && at < most;)
+  {
+    const std::size_t n = length_of_character(text, at);
+    const bool is_control = n == 1 && (text[at] < ' ' || text[at] == 127);
+    shown += n == 0 || is_control ? "?" : text.substr(at, n);
+    at += std::max<std::size_t>(n, 1);
+  }
+  return shown;
+}
+
 void MeshFile::refuse(const std::string &why, const std::size_t line) const
 {
   throw InputError(
       path, "cannot read the mesh file \"" + name + "\"" +
                 (line > 0 ? ", line " + std::to_string(line) : std::string()) +
-                ": " + why);
+                ": " + printable(why));
 }
 
 std::string MeshFile::text() const
 {
-  struct stat status;
-  std::ifstream stream(name, std::ios::binary);
-  if (!stream || stat(name.c_str(), &status) != 0)
-    throw InputError(path, "cannot open the mesh file \"" + name + "\"");
-  if (!S_ISREG(status.st_mode))
+  struct stat status = {};
+  if (stat(name.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     throw InputError(path, "\"" + name + "\" is no file");
+  std::ifstream stream(name, std::ios::binary);
+  if (!stream)
+    throw InputError(path, "cannot open the mesh file \"" + name +
+                               "\": " + std::strerror(errno));
   std::string all(status.st_size, '\0');
   stream.read(&all[0], all.size());
   all.resize(stream.gcount());
