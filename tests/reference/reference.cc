@@ -115,8 +115,11 @@ TEST(Reference, names_all_entries_of_all_kinds_of_bodies)
 
 TEST(Reference, quantities_tell_their_units)
 {
+  // The others have the unit of the column or field that they are of.
   for (const auto &type : Registry<QuantityOfInterest>::entries())
-    EXPECT_FALSE(unit_of_quantity(type.name).empty()) << type.name;
+    EXPECT_EQ(unit_of_quantity(type.name).empty(),
+              type.name == "history" || type.name == "largest")
+        << type.name;
 }
 
 TEST(Reference, names_all_fields_of_runs_and_no_others)

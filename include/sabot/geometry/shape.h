@@ -69,10 +69,6 @@ public:
       it is turned: of unit length. */
   virtual Vec axis(const Parameters &) const { return vec(0., 0., 1.); }
 
-  /** Whether the shape is all of the box around it, so that where such boxes
-      overlap, shapes do. */
-  virtual bool fills_bounds() const { return false; }
-
   /** Whether the cells of mesh() have the requested size, and not one of their
       own. */
   virtual bool follows_cell_size() const { return true; }

@@ -59,8 +59,6 @@ public:
     return {make_graded_box(box), {box_faces.begin(), box_faces.end()}};
   }
 
-  bool fills_bounds() const override { return true; }
-
   bool has_lattice() const override { return true; }
 
   ParticleCloud lattice(const Parameters &prm,

@@ -76,6 +76,8 @@ void declare(Parameters &prm)
                     "A point of the section, in the undeformed body.");
 }
 
+const UnitOfQuantity described("section force", "N");
+
 const Registry<QuantityOfInterest>::Add registered(
     {"section force",
      "that the part of the body beyond a plane across the direction exerts on "
