@@ -92,8 +92,9 @@ BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
   {
     measures.velocity[d] =
         mass.value() > 0. ? momentum[d].value() / mass.value() : 0.;
-    measures.low[d] = -top[3 + d];
-    measures.high[d] = top[d];
+    // No -0, which the largest may be or not, by the order of ranks and nodes.
+    measures.low[d] = 0. - top[3 + d];
+    measures.high[d] = top[d] + 0.;
   }
   return measures;
 }
