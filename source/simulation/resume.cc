@@ -3,13 +3,17 @@
 #include "sabot/simulation/resume.h"
 
 #include "sabot/base/error.h"
+#include "sabot/base/hash.h"
+#include "sabot/base/text.h"
 #include "sabot/output/checkpoint.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/simulation/run.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace sabot
 {
@@ -53,6 +57,96 @@ void broadcast(std::string &text, MPI_Comm communicator)
   MPI_Bcast(&text[0], length, MPI_CHAR, 0, communicator);
 }
 
+/** "End time" of "set End time = 1 ms"; empty for other lines. */
+std::string name_of_entry(const std::string &line)
+{
+  const std::string set = "set ";
+  const std::size_t end = line.find('=');
+  return line.compare(0, set.size(), set) == 0 && end != std::string::npos
+             ? trim(line.substr(set.size(), end - set.size()))
+             : "";
+}
+
+/** The lines of @p parameters on which the state depends, without comments and
+    blanks at their ends. */
+std::vector<std::string> binding_lines(const std::string &parameters)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(parameters);
+  int depth = 0;
+  for (std::string line; std::getline(stream, line);)
+  {
+    line = trim(line.substr(0, line.find("# default:")));
+    if (line.empty() || line[0] == '#')
+      continue;
+    depth += (line.compare(0, 11, "subsection ") == 0) - (line == "end");
+    const bool is_free =
+        depth == 0 && std::any_of(free_entries.begin(), free_entries.end(),
+                                  [&](const std::string &entry)
+                                  { return name_of_entry(line) == entry; });
+    if (!is_free)
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string identity_of(const std::string &parameters)
+{
+  constexpr std::size_t n_digits = 16;
+  return sha256(join(binding_lines(parameters), "\n")).substr(0, n_digits);
+}
+
+/** A parameters.prm. */
+struct ParametersFile
+{
+  std::string identity; // empty: it is of an older version, or not there
+  std::string parameters;
+};
+
+const std::string before_identity = ", run ";
+
+ParametersFile read_parameters(const std::string &name)
+{
+  ParametersFile file;
+  std::ifstream stream(name, std::ios::binary);
+  std::string first;
+  std::getline(stream, first);
+  const std::size_t at = first.find(before_identity);
+  if (at != std::string::npos)
+    file.identity = trim(first.substr(at + before_identity.size()));
+  file.parameters.assign(std::istreambuf_iterator<char>(stream), {});
+  return file;
+}
+
+/** In what two scenes differ first, in words. */
+std::string difference(const std::string &one, const std::string &other)
+{
+  const std::vector<std::string> a = binding_lines(one),
+                                 b = binding_lines(other);
+  std::size_t i = 0;
+  while (i < a.size() && i < b.size() && a[i] == b[i])
+    ++i;
+  const auto line = [i](const std::vector<std::string> &lines)
+  { return i < lines.size() ? "\"" + lines[i] + "\"" : "nothing"; };
+  return line(a) + " for " + line(b);
+}
+
+/** Whether a checkpoint is of the run of @p present; otherwise a warning is
+    added. Where the parameters.prm does not tell, all belong. */
+bool belongs(const CheckpointHeader &header, const std::string &file,
+             const ParametersFile &present, const std::string &scene,
+             ResumePoint &point)
+{
+  const std::string identity = identity_of(header.parameters);
+  if (present.identity.empty() || identity == present.identity)
+    return true;
+  point.warnings.push_back("checkpoint \"" + file +
+                           "\" is of another run than \"" + scene +
+                           "\" and passed over: its scene has " +
+                           difference(header.parameters, present.parameters));
+  return false;
+}
+
 ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
 {
   if (!std::filesystem::is_directory(folder))
@@ -67,7 +161,9 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
                              "the end\" is false, when it is finished");
   ResumePoint point;
   point.scene = folder + "/parameters.prm";
+  const ParametersFile present = read_parameters(point.scene);
   std::string last_problem;
+  bool is_any_whole = false;
   for (const std::string &file : files)
   {
     CheckpointHeader header;
@@ -81,6 +177,9 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
       point.warnings.push_back(last_problem + "; the one before is used");
       continue;
     }
+    is_any_whole = true;
+    if (!belongs(header, file, present, point.scene, point))
+      continue;
     if (header.n_ranks != n_ranks)
       throw InputError("", "checkpoint \"" + file + "\" was written on " +
                                std::to_string(header.n_ranks) +
@@ -89,22 +188,35 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
                                std::to_string(header.n_ranks));
     point.checkpoint = file;
     point.time = header.time;
-    std::ifstream stream(point.scene, std::ios::binary);
-    std::string present{std::istreambuf_iterator<char>(stream), {}};
-    present.erase(0, present.find('\n') + 1); // the version
-    if (present != header.parameters)
+    if (header.version != version())
+      point.warnings.push_back(
+          "checkpoint \"" + file + "\" was written by Sabot " + header.version +
+          ", this is " + version() +
+          ": the results may not be those of a run by one of them");
+    if (present.parameters != header.parameters)
     {
       point.warnings.push_back("\"" + point.scene +
                                "\" is not what the checkpoint was made with; "
                                "it is put back, use --set for changes");
       write_text(point.scene,
-                 "# Sabot " + header.version + "\n" + header.parameters);
+                 parameters_file(header.version, header.parameters));
     }
     return point;
   }
+  if (is_any_whole)
+    throw InputError("", "\"" + folder +
+                             "/checkpoint\" holds no checkpoint of this run: " +
+                             point.warnings.back());
   throw IOError(last_problem + "; no checkpoint is whole");
 }
 } // namespace
+
+std::string parameters_file(const std::string &version,
+                            const std::string &parameters)
+{
+  return "# Sabot " + version + before_identity + identity_of(parameters) +
+         "\n" + parameters;
+}
 
 ResumePoint find_resume_point(const std::string &folder,
                               const std::vector<std::string> &overrides,

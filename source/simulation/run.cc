@@ -6,6 +6,7 @@
 #include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/plan.h"
+#include "sabot/simulation/resume.h"
 #include "sabot/simulation/run_quality.h"
 #include "sabot/simulation/run_result.h"
 
@@ -111,7 +112,7 @@ void Run::open_folder(const bool append)
       // While the run goes on, nothing says that it is finished.
       remove_file(files.folder + "/result.json");
       write_text(files.folder + "/parameters.prm",
-                 "# Sabot " + version() + "\n" + scene.expanded_parameters());
+                 parameters_file(version(), scene.expanded_parameters()));
     }
     catch (const IOError &e)
     {

@@ -18,10 +18,20 @@ struct ResumePoint
 };
 
 /**
- * Find the newest valid checkpoint of a results folder and put its parameters
- * into parameters.prm. InputError when there is none, when it was written on
- * another number of ranks, or when @p overrides would change what the state
- * depends on. Collective; throws on all ranks.
+ * What a run writes as parameters.prm: version and identity of the run, then
+ * every entry of its scene (@p parameters). The identity is a hash of those
+ * entries on which the state depends: equal runs have the same, and no entry of
+ * another run is resumed by mistake.
+ */
+std::string parameters_file(const std::string &version,
+                            const std::string &parameters);
+
+/**
+ * Find the newest valid checkpoint of the run of a results folder and put its
+ * parameters into parameters.prm. Files of other runs that got among them are
+ * passed over. InputError when there is none, when it was written on another
+ * number of ranks, or when @p overrides would change what the state depends on.
+ * Collective; throws on all ranks.
  *
  * @p overrides: entries as the command line gives them, "path = value"; those
  * on when a run ends and when checkpoints are due are free, all others are
