@@ -11,29 +11,32 @@ namespace sabot
 {
 namespace
 {
-/** A row of a file: nothing but doubles, and no more of them than the file has
-    room for; what else stands there was not written by this program. */
-bool is_table(const hid_t type, const hid_t space, const double file_size)
-{
-  const hssize_t n = H5Sget_simple_extent_npoints(space);
-  if (H5Tget_class(type) != H5T_COMPOUND || n < 0 ||
-      double(n) * double(H5Tget_size(type)) > file_size)
-    return false;
-  for (int c = 0; c < H5Tget_nmembers(type); ++c)
-  {
-    const Hdf5Handle member(H5Tget_member_type(type, c), H5Tclose);
-    if (H5Tget_class(member) != H5T_FLOAT || H5Tget_size(member) != 8)
-      return false;
-  }
-  return true;
-}
-
 hid_t row_type(const std::vector<std::string> &columns)
 {
   const hid_t type = H5Tcreate(H5T_COMPOUND, columns.size() * sizeof(double));
   for (std::size_t c = 0; c < columns.size(); ++c)
     H5Tinsert(type, columns[c].c_str(), c * sizeof(double), H5T_NATIVE_DOUBLE);
   return type;
+}
+/** Columns of a table of a file; none where it has not just what this program
+    writes: rows of doubles that need no conversion, and no more of them than
+   the file has room for. HDF5 may do anything with other types. */
+std::vector<std::string> columns_of(const hid_t type, const hid_t space,
+                                    const double file_size)
+{
+  const hssize_t n = H5Sget_simple_extent_npoints(space);
+  if (H5Tget_class(type) != H5T_COMPOUND || n < 0 ||
+      double(n) * double(H5Tget_size(type)) > file_size)
+    return {};
+  std::vector<std::string> columns;
+  for (int c = 0; c < H5Tget_nmembers(type); ++c)
+  {
+    char *const name = H5Tget_member_name(type, c);
+    columns.push_back(name == nullptr ? "" : name);
+    H5free_memory(name);
+  }
+  const Hdf5Handle expected(row_type(columns), H5Tclose);
+  return H5Tequal(type, expected) > 0 ? columns : std::vector<std::string>();
 }
 } // namespace
 
@@ -110,18 +113,13 @@ void History::read(const std::string &file)
     const Hdf5Handle set(H5Dopen2(h5, name, H5P_DEFAULT), H5Dclose);
     const Hdf5Handle type(H5Dget_type(set), H5Tclose);
     const Hdf5Handle space(H5Dget_space(set), H5Sclose);
-    if (!is_table(type, space, double(file_size)))
+    Table &table = tables[name];
+    table.columns = columns_of(type, space, double(file_size));
+    if (table.columns.empty())
       throw IOError("history \"" + file + "\": \"" + name +
                     "\" is not a table of numbers");
-    Table &table = tables[name];
-    const int n_columns = H5Tget_nmembers(type);
-    for (int c = 0; c < n_columns; ++c)
-    {
-      char *const column = H5Tget_member_name(type, c);
-      table.columns.push_back(column == nullptr ? "" : column);
-      H5free_memory(column);
-    }
-    table.values.resize(n_columns * H5Sget_simple_extent_npoints(space));
+    table.values.resize(table.columns.size() *
+                        H5Sget_simple_extent_npoints(space));
     const Hdf5Handle memory(row_type(table.columns), H5Tclose);
     if (H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                 table.values.data()) < 0)

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -109,8 +110,13 @@ pid_t start(const Command &command, const SignalsHeld &signals)
   return pid;
 }
 
-/** Processes that run, by what they are of the commands. */
-using Running = std::map<pid_t, std::size_t>;
+/** Processes that run: number of the command, and what ends it. */
+struct Process
+{
+  std::size_t number;
+  int stop_signal;
+};
+using Running = std::map<pid_t, Process>;
 
 /** Start those of @p waiting whose turn it is. */
 void start_some(std::deque<std::size_t> &waiting, Running &running,
@@ -125,7 +131,7 @@ void start_some(std::deque<std::size_t> &waiting, Running &running,
     Command command;
     const Turn turn = prepare(number, command);
     if (turn == Turn::now)
-      running[start(command, signals)] = number;
+      running[start(command, signals)] = {number, command.stop_signal};
     else if (turn == Turn::later)
       waiting.push_back(number);
   }
@@ -149,8 +155,9 @@ void report_ended(Running &running,
     if (pid < 0)
       throw IOError(std::string("waiting for a process: ") +
                     std::strerror(errno));
-    const Ended ended{process->second, WIFEXITED(status) ? WEXITSTATUS(status)
-                                                         : -WTERMSIG(status)};
+    const Ended ended{process->second.number, WIFEXITED(status)
+                                                  ? WEXITSTATUS(status)
+                                                  : -WTERMSIG(status)};
     process = running.erase(process);
     report(ended);
   }
@@ -163,6 +170,7 @@ bool run_processes(const std::size_t n, const unsigned int n_processes,
 {
   const SignalsHeld signals;
   bool is_stopping = stop_signal() != 0;
+  std::chrono::steady_clock::time_point next_kill;
   Running running;
   std::deque<std::size_t> waiting;
   for (std::size_t i = 0; i < n; ++i)
@@ -174,12 +182,13 @@ bool run_processes(const std::size_t n, const unsigned int n_processes,
       start_some(waiting, running, n_processes, prepare, signals);
     if (running.empty() && (is_stopping || waiting.empty()))
       return !is_stopping;
-    if (signals.wait() && !is_stopping)
-    {
-      is_stopping = true;
-      for (const auto &process : running)
-        kill(process.first, SIGTERM);
-    }
+    is_stopping = signals.wait() || is_stopping;
+    const auto now = std::chrono::steady_clock::now();
+    if (!is_stopping || now < next_kill)
+      continue;
+    next_kill = now + std::chrono::seconds(2);
+    for (const auto &[pid, process] : running)
+      kill(pid, process.stop_signal);
   }
 }
 

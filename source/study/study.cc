@@ -44,8 +44,13 @@ Command command_for(const StudyFile &study, const StudyRun &run,
 {
   Command command;
   if (study.n_ranks > 1)
+  {
     command.words = {"mpirun", "--oversubscribe", "-np",
                      std::to_string(study.n_ranks)};
+    // At SIGTERM an mpirun gives its ranks no more than a second for a
+    // checkpoint; this one it passes on.
+    command.stop_signal = SIGUSR1;
+  }
   command.words.push_back(own_program());
   if (resume)
     command.words.insert(command.words.end(), {"resume", folder});
@@ -182,6 +187,8 @@ Turn prepare(const StudyArguments &arguments, const StudyFile &study,
   if (state.is_kept || (is_new && state.status == "failed"))
     return Turn::never;
   write_text(item.folder + "/build.txt", build + "\n");
+  if (state.status == "missing") // none, or damaged
+    remove_file(item.folder + "/result.json");
   const bool resume =
       state.status != "failed" && !state.is_of_other_build &&
       !CheckpointFolder::list(item.folder + "/checkpoint").empty();
@@ -294,9 +301,6 @@ ExitCode run_study(const StudyArguments &arguments)
     return ExitCode::done;
   }
   listen_to_stop_signals();
-  // Runs on ranks that are told to stop have more than a second for their
-  // checkpoint, if the mpirun is OpenMPI's.
-  setenv("OMPI_MCA_odls_base_sigkill_timeout", "60", 0);
   make_folder(arguments.folder);
   const bool all_started = complete_runs(arguments, study);
 

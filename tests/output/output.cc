@@ -186,7 +186,7 @@ TEST_F(Folders, a_history_that_is_none_is_refused)
   std::ifstream stream(file, std::ios::binary);
   const std::string good{std::istreambuf_iterator<char>(stream), {}};
   unsigned int n_refused = 0;
-  for (std::size_t i = 0; i < good.size(); ++i)
+  for (std::size_t i = 0; i < good.size(); i += 17)
   {
     std::string bad = good;
     bad[i] ^= 0x41;
@@ -200,6 +200,6 @@ TEST_F(Folders, a_history_that_is_none_is_refused)
       ++n_refused;
     }
   }
-  EXPECT_GT(n_refused, 100U);
+  EXPECT_GT(n_refused, 5U);
 }
 } // namespace

@@ -799,7 +799,8 @@ class Scenes(unittest.TestCase):
     def test_a_signal_leaves_readable_results(self):
         out = folder("signal")
         process = subprocess.Popen([SABOT, "run", QUICK, "-o", out, "--quiet"])
-        time.sleep(4.)
+        while not os.path.exists(os.path.join(out, "sabot.pvd")):
+            time.sleep(0.05)
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=60), 3)
         r = result(out)

@@ -1,6 +1,7 @@
 #ifndef sabot_study_process_pool_h
 #define sabot_study_process_pool_h
 
+#include <csignal>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct Command
   std::vector<std::string> words; // the first is looked up on the PATH
   std::string log;                // file, emptied first
   int descriptor = -1;            // stays open in the program; -1: none
+  int stop_signal = SIGTERM;      // asks it to come to an end
 };
 
 /** How a process ended: its exit code, or minus the signal that ended it. */
@@ -37,7 +39,8 @@ using Prepare = std::function<Turn(std::size_t number, Command &command)>;
 /**
  * Run @p n commands as processes of their own, up to @p n_processes at a time,
  * in order as far as their turns allow, and report each end. Stop signals
- * (stop_signals.h) end those that run by SIGTERM, once; no further ones are
+ * (stop_signals.h) are passed on to those that run, as what ends them, every
+ * two seconds, as an mpirun loses them while it starts; no further ones are
  * started, and those that run are waited for. Should this process be killed,
  * the system sends them SIGTERM. The processes must not be started from one
  * that uses MPI. IOError when one cannot be started. @return whether all had
