@@ -116,7 +116,7 @@ std::string draw_pictures(const nlohmann::ordered_json &drawings,
   const auto at_once = [&](std::size_t, Command &next)
   {
     next = command;
-    return Turn::now;
+    return Readiness::now;
   };
   const bool started = run_processes(
       1, 1, at_once, [&](const Ended &ended) { code = ended.code; });

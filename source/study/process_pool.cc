@@ -129,10 +129,10 @@ void start_some(std::deque<std::size_t> &waiting, Running &running,
     const std::size_t number = waiting.front();
     waiting.pop_front();
     Command command;
-    const Turn turn = prepare(number, command);
-    if (turn == Turn::now)
+    const Readiness turn = prepare(number, command);
+    if (turn == Readiness::now)
       running[start(command, signals)] = {number, command.stop_signal};
-    else if (turn == Turn::later)
+    else if (turn == Readiness::later)
       waiting.push_back(number);
   }
 }

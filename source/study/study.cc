@@ -169,8 +169,8 @@ Plan plan_runs(const StudyArguments &arguments, const StudyFile &study)
 
 /** Take the run of @p item, unless another study has it: then its result will
     be that of this study, too. */
-Turn prepare(const StudyArguments &arguments, const StudyFile &study,
-             const std::string &build, Plan::Item &item, Command &command)
+Readiness prepare(const StudyArguments &arguments, const StudyFile &study,
+                  const std::string &build, Plan::Item &item, Command &command)
 {
   make_folder(item.folder);
   auto lock = std::make_unique<FileLock>(item.folder + "/study.lock");
@@ -180,12 +180,12 @@ Turn prepare(const StudyArguments &arguments, const StudyFile &study,
       std::cout << item.run->key << ": waiting for another study that runs it ("
                 << lock->holder() << ")" << std::endl;
     item.waits = true;
-    return Turn::later;
+    return Readiness::later;
   }
   const RunState state = state_of(arguments, study, *item.run, build);
   const bool is_new = time_of_result(item.folder) != item.result_time;
   if (state.is_kept || (is_new && state.status == "failed"))
-    return Turn::never;
+    return Readiness::never;
   write_text(item.folder + "/build.txt", build + "\n");
   if (state.status == "missing") // none, or damaged
     remove_file(item.folder + "/result.json");
@@ -195,7 +195,7 @@ Turn prepare(const StudyArguments &arguments, const StudyFile &study,
   command = command_for(study, *item.run, item.folder, resume);
   command.descriptor = lock->open_descriptor();
   item.lock = std::move(lock);
-  return Turn::now;
+  return Readiness::now;
 }
 
 /** What to say of a run that ended. */
@@ -241,8 +241,9 @@ bool complete_runs(const StudyArguments &arguments, const StudyFile &study)
   const auto turn = [&](const std::size_t number, Command &command)
   {
     Plan::Item &item = plan.items[number];
-    const Turn result = prepare(arguments, study, plan.build, item, command);
-    if (result == Turn::never)
+    const Readiness result =
+        prepare(arguments, study, plan.build, item, command);
+    if (result == Readiness::never)
       say(item.run->key + ": made by another study");
     return result;
   };

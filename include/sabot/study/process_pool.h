@@ -26,7 +26,7 @@ struct Ended
 };
 
 /** When a command is to be started. */
-enum class Turn
+enum class Readiness
 {
   now,
   later, // to be asked again
@@ -34,7 +34,7 @@ enum class Turn
 };
 
 /** Says whose turn it is and makes the command of that number. */
-using Prepare = std::function<Turn(std::size_t number, Command &command)>;
+using Prepare = std::function<Readiness(std::size_t number, Command &command)>;
 
 /**
  * Run @p n commands as processes of their own, up to @p n_processes at a time,
