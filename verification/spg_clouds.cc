@@ -83,7 +83,7 @@ void add_checks(std::vector<Check> &checks, const std::string &name,
     {
       n_bonds += bonds.n_bonds(i);
       least_bonds = std::min(least_bonds, double(bonds.n_bonds(i)));
-      n_weak += body.is_weak(i);
+      n_weak += body.damage(i).lost_direction;
     }
     mean_bonds = n_bonds / n;
   }

@@ -157,13 +157,10 @@ public:
     return points.state(name)[i];
   }
   std::size_t n_kernel_updates() const { return n_updates; }
-  bool has_crumbled(const std::size_t i) const
+  /** What a rule for failed metal is told of an owned particle. */
+  ParticleDamage damage(const std::size_t i) const
   {
-    return failure.has_crumbled(i);
-  }
-  bool is_weak(const std::size_t i) const
-  {
-    return approximation.lost_direction[i];
+    return {bool(approximation.lost_direction[i]), failure.has_crumbled(i)};
   }
 
 protected:
