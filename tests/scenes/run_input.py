@@ -374,7 +374,7 @@ class Input(unittest.TestCase):
                 ({"Melt temperature": "650"}, "far too low"),
                 ({"Initial yield stress": "806", "Hardening modulus": "0"},
                  "Initial yield stress: it first yields at 806 Pa"),
-                ({"Initial yield stress": "806 GPa"}, "is a unit wrong?"),
+                ({"Initial yield stress": "90 GPa"}, "is a unit wrong?"),
                 ({"Hardening modulus": "614"}, "Hardening modulus: 614 is next"),
                 ({"Initial temperature": "25"}, "25 is read as kelvin"),
                 ({"Initial temperature": "1800 K"}, "no strength at all"),
