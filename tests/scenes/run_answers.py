@@ -192,7 +192,7 @@ class Answers(unittest.TestCase):
         histories, answers = [], []
         for name, ranks, extra in (
                 ("held1", 1, ()), ("held2", 2, ()), ("held3", 3, ()),
-                ("held-parts", 2, ("Checkpoint interval in steps=21",
+                ("held-parts", 2, ("Checkpoint interval in steps=35",
                                    "Checkpoint at the end=false"))):
             out = folder(name)
             self.run_scene(scene, out, *extra, ranks=ranks)
@@ -200,7 +200,7 @@ class Answers(unittest.TestCase):
                 os.remove(os.path.join(out, "history.h5"))
                 done = sabot("resume", out, "--quiet", ranks=ranks)
                 self.assertEqual(done.returncode, 0, done.stdout)
-                self.assertIn("resumed at step 21",
+                self.assertIn("resumed at step 35",
                               read(out, "log.txt").decode())
             r = result(out)
             self.assertLess(r["momentum_residual_max"], 1e-12)
