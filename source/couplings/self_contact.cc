@@ -137,6 +137,10 @@ void SelfContact::find_pairs()
           found.push_back(make_pair(a, b, other.image, distance, core,
                                     debris.views[a.body],
                                     debris.views[b.body]));
+          const double share = images.share(from, to);
+          found.back().stiffness *= share;
+          found.back().area *= share;
+          found.back().largest_friction *= share;
         });
   }
   const auto before = [](const Pair &p, const Pair &q)

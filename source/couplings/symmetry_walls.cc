@@ -88,16 +88,17 @@ bool SymmetryWalls::any() const
 
 void SymmetryWalls::add_forces(const double dt)
 {
-  held.clear();
+  std::vector<Held> before;
+  before.swap(held);
   if (!is_step(dt))
     return;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (const SymmetryWall &wall : walls[b])
-      hold(b, wall, dt);
+      hold(b, wall, dt, before);
 }
 
 void SymmetryWalls::hold(const std::uint32_t body, const SymmetryWall &wall,
-                         const double dt)
+                         const double dt, const std::vector<Held> &before)
 {
   NodalState &nodes = bodies[body]->nodes();
   const bool is_rigid = !bodies[body]->moves_node_by_node();
@@ -114,9 +115,13 @@ void SymmetryWalls::hold(const std::uint32_t body, const SymmetryWall &wall,
         wall.distance(nodes.reference_position[i]) <= wall.held_within)
       continue;
     const bool bounces = !is_rigid && -m * v > 2. * dt * std::abs(f);
-    Held h{body, std::uint32_t(i), Vec{}};
-    h.force[axis] =
-        wall.side * (bounces ? -2. * (m * v / dt + f) : -next / (dt * dt));
+    Held h{body, std::uint32_t(i), axis, dt, Vec{}};
+    if (is_rigid)
+      for (const Held &b : before)
+        if (b.body == body && b.node == i && b.axis == axis)
+          h.step = std::max(dt, b.step);
+    h.force[axis] = wall.side * (bounces ? -2. * (m * v / dt + f)
+                                         : -next / (h.step * h.step));
     nodes.force[i] += h.force;
     held.push_back(h);
     farthest = std::max(farthest, -g);

@@ -44,7 +44,9 @@ find_symmetry_walls(const std::vector<Body *> &bodies);
  *     differences, whatever the material, without the penetration that a spring
  *     needs;
  *   nodes of a rigid body: m/dt^2 max(0, -g), a spring as stiff as central
- *     differences bear, for only the body as a whole resists.
+ *     differences bear, for only the body as a whole resists; dt the longest
+ *     step since the node came in, so that the spring never stiffens and gives
+ *     no energy.
  *
  * Nodes on faces of symmetry stay there by constraints of their bodies and are
  * left out, and so are followers of ties. What a pressed node loses of its
@@ -76,11 +78,13 @@ private:
   struct Held
   {
     std::uint32_t body, node; // local
+    std::int64_t axis;        // of the wall
+    double step;              // of rigid bodies, longest since it came in [s]
     Vec force;                // [N]
   };
-  /** One body at one wall. */
-  void hold(const std::uint32_t body, const SymmetryWall &wall,
-            const double dt);
+  /** One body at one wall; @p before: who was held in the last step. */
+  void hold(const std::uint32_t body, const SymmetryWall &wall, const double dt,
+            const std::vector<Held> &before);
 
   const std::vector<Body *> bodies;
   MPI_Comm communicator;
