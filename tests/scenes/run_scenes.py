@@ -211,6 +211,7 @@ class Scenes(unittest.TestCase):
             self.assertGreater(ball["velocity"][2], 19.5)
             self.assertLess(ball["velocity"][2], 20.)
         # Viscous control takes more than half of it, and that is said.
+        out = folder("ball-on-wall")
         done = sabot("run", scene, "-o", out, "--set",
                      "Bodies/ball/Hourglass control=viscous")
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -240,6 +241,7 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(momentum / (7830. * c * 5. * 16e-6 * 5e-6), 1.,
                                delta=0.03)
         # Nothing moves.
+        out = folder("pulled")
         done = sabot("run", scene, "-o", out, "--quiet", "--set",
                      "Bodies/bar/Prescribed velocity=0 m/s, 0 m/s, 0 m/s")
         self.assertEqual(done.returncode, 0, done.stdout)
