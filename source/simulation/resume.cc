@@ -108,6 +108,9 @@ const std::string before_identity = ", run ";
 ParametersFile read_parameters(const std::string &name)
 {
   ParametersFile file;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(name, error))
+    return file;
   std::ifstream stream(name, std::ios::binary);
   std::string first;
   std::getline(stream, first);
