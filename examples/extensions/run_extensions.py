@@ -26,6 +26,7 @@ EXAMPLES = {
     "failure_criterion": ("failure criterion", "maximum principal strain"),
     "stabilization": ("stabilization", "residual damping"),
     "friction_law": ("friction law", "flash heating"),
+    "load": ("load", "drag"),
     "quantity": ("quantity of interest", "velocity of a piece"),
     "output": ("output", "CSV")}
 # OpenMPI refuses root unless told twice.
@@ -193,6 +194,14 @@ class Answers(unittest.TestCase):
         energy = 0.5 * mass * u * u * (1. - front / J / length)
         self.assertAlmostEqual(result["bodies"]["water"]["kinetic_energy"],
                                energy, delta=0.01 * 0.5 * mass * u * u)
+
+    def test_load(self):
+        _, result = self.run_scene("load")
+        cube, decay = result["bodies"]["cube"], math.exp(-1.5)
+        self.assertAlmostEqual(cube["velocity"][0], 100. * decay, delta=0.2)
+        self.assertAlmostEqual(
+            result["loads"]["medium"]["work"] / (0.5 * cube["mass"] * 1e4),
+            decay ** 2 - 1., delta=2e-3)
 
     def test_failure_criterion(self):
         E, nu, density, v = 68.9e9, 0.33, 2700., 120.
