@@ -1172,8 +1172,8 @@ class Scenes(unittest.TestCase):
         for load in ("weight", "blast", "pull"):
             self.assertNotEqual(r["loads"][load]["work"], 0.)
         self.assertGreater(r["energy"]["external"], 1e-3)
-        # The pressure is there at once: off in the first steps, not later.
-        self.assertLess(r["energy_residual_max"], 0.05)
+        # Though the pressure is there at once.
+        self.assertLess(r["energy_residual_max"], 1e-3)
         self.assertLess(abs(r["energy"]["total"]),
                         2e-3 * r["energy"]["external"])
         self.assertAlmostEqual(r["bodies"]["block"]["velocity"][2], 150.,

@@ -15,11 +15,11 @@ namespace sabot
  * sqrt(2 E_kin m). With the total energy E, of which the work supplied from
  * outside has been taken off (EnergyLedger::total()), and the energy E_kick
  * that whole steps have over half ones (Body::add_kick_energy()), energy:   |E
- * - E_kick - E_0|/max over time of (sum |parts|, |supplied|), momentum: |sum m
- * v + p_eroded - p_0|/sum sqrt(2 E_kin m), both pure numbers. A bar that is
- * driven from rest so counts against the work put in. Where nothing moves,
- * energies count against those of a motion of 1e-10 of the speed of sound, so
- * that round-off is none.
+ * - E_kick - E_0 + E_kick,0|/max over time of (sum |parts|, |supplied|),
+ * momentum: |sum m v + p_eroded - p_0|/sum sqrt(2 E_kin m), both pure numbers.
+ * A bar that is driven from rest so counts against the work put in. Where
+ * nothing moves, energies count against those of a motion of 1e-10 of the speed
+ * of sound, so that round-off is none.
  */
 class EnergyBalance
 {
@@ -63,6 +63,9 @@ public:
 private:
   /** Fills the ledger. @return E - E_kick [J] after a step of @p dt [s]. */
   double total_energy(const double dt);
+  /** By Body::add_kick_energy() and what loads take off again [J]. Collective.
+   */
+  double kick_energy(const double dt) const;
   double momentum_residual() const;
 
   const Scene &scene;
@@ -70,6 +73,9 @@ private:
   Measures ledger;
   double initial_energy = 0., largest_energy = 0.; // [J]
   double passed = 0., least_energy = 0.;           // [J]
+  static constexpr double kick_step = 1e-6;        // [s], of the next one
+  double initial_kick = 0.; // energy of kicks by the first forces [J]
+  double first_step = 0.;   // [s]
   double last = 0., largest = 0.;
   std::array<double, 3> initial_momentum{}; // [kg m/s]
   double momentum_scale = 0., largest_momentum = 0.;
