@@ -5,6 +5,7 @@
 // m_a and v_a mass and velocity of a node, tau a time: the body slows down as
 // exp(-t/tau). To keep it, copy this file into source/loads.
 // Scene: load.prm.
+#include "sabot/loads/load.h"
 #include "sabot/loads/nodal_forces.h"
 
 #include <numeric>
