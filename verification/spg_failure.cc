@@ -372,7 +372,7 @@ std::vector<Check> weak_particles()
   std::vector<std::size_t> weak;
   double tension = -1e300;
   for (std::size_t i = 0; i < n.n_owned; ++i)
-    if (body.is_weak(i) && body.bond_list().n_bonds(i) >= 4)
+    if (body.damage(i).lost_direction && body.bond_list().n_bonds(i) >= 4)
     {
       weak.push_back(i);
       for (int c = 0; c < 3; ++c)
