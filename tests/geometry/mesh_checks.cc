@@ -87,6 +87,9 @@ TEST(MeshChecks, a_bad_corner_warns_and_an_inverted_cell_is_refused)
   block.nodes[26] = {{0.9, 0.9, 0.9}};
   EXPECT_TRUE(has(refusal("inside.inp", block.abaqus()),
                   "cell 8 at (1362.5, 1362.5, 1362.5) mm is inverted or flat"));
+  block.nodes[26] = {{2e6, 2., 2.}};
+  EXPECT_TRUE(
+      has(refusal("thin.inp", block.abaqus()), "times as long as wide"));
   block.nodes[26] = {{1e200, 2., 2.}};
   EXPECT_TRUE(has(refusal("far.inp", block.abaqus()), "no place for a body"));
   block.cells[7][6] = block.cells[7][5];

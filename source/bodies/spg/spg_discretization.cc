@@ -1,4 +1,5 @@
 // Particles as a choice of scenes: entries, checks, construction.
+#include "sabot/base/text.h"
 #include "sabot/bodies/discretization.h"
 #include "sabot/bodies/spg/spg_body.h"
 
@@ -54,6 +55,29 @@ std::uint32_t face_bits(const BodyRequest &request, const std::string &entry,
     bits |= 1u << face;
   }
   return bits;
+}
+
+/** Refuses particles that a search by cubes of the spacing could not hold. */
+void check_spread(const ParticleCloud &cloud, const std::string &path)
+{
+  double n_cubes = 1.;
+  for (int d = 0; d < 3; ++d)
+  {
+    double low = cloud.position[0][d], high = low;
+    for (const auto &x : cloud.position)
+    {
+      low = std::min(low, x[d]);
+      high = std::max(high, x[d]);
+    }
+    n_cubes *= 1. + (high - low) / cloud.spacing[d];
+  }
+  constexpr double most = 1e9;
+  if (!(n_cubes < most))
+    throw InputError(path + "/Geometry",
+                     "the box around its particles has room for " +
+                         formatted("%.3g", n_cubes) +
+                         " of them, more than can be searched; make a body of "
+                         "each piece, or look for a misplaced node");
 }
 
 class Particles : public Discretization
@@ -117,6 +141,7 @@ public:
         follow_spacing(request.prm, request.file, request.path,
                        cloud.spacing[0]);
     }
+    check_spread(cloud, request.path);
     SpgOptions options = SpgOptions::parse(request.prm, request.path);
     options.initial_velocity = request.initial_velocity;
     options.symmetry_faces = face_bits(request, "Symmetry faces", faces);

@@ -123,6 +123,11 @@ private:
         file.refuse(cell(c) +
                     " is inverted or flat: its Jacobian is not positive "
                     "inside; mend the mesh there");
+      const double slenderness = longest_edge(x) / shortest_edge(x);
+      constexpr double most = 1000.;
+      if (!(slenderness < most))
+        file.refuse(cell(c) + " is " + formatted("%.3g", slenderness) +
+                    " times as long as wide; is one of its nodes misplaced?");
       const CornerShape corner = worst_corner(x);
       if (corner.scaled_jacobian > 0.)
         continue;
