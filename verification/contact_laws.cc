@@ -105,6 +105,8 @@ public:
 struct Slide
 {
   double velocity, normal_impulse; // [m/s], at @p end; per mass
+  /** Time in which the weight alone would have pressed as much as it and the
+      block's bounces did until a fiftieth of the speed was left [s]. */
   double stopped_at = std::nan(""), distance = 0.;
 };
 
@@ -142,7 +144,8 @@ Slide slide(const double weight, const double v, const ContactOptions &options,
     x += dt * result.velocity;
     if (std::isnan(result.stopped_at) && result.velocity <= 0.02 * v)
     {
-      result.stopped_at = world.stepper.time();
+      result.stopped_at = world.stepper.time() +
+                          world.bodies[0]->measure().velocity[2] / weight;
       result.distance = x;
     }
   }
