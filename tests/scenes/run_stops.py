@@ -209,7 +209,8 @@ class Stops(unittest.TestCase):
 
     def test_memory_that_does_not_suffice_is_told_by_what_it_was_for(self):
         gigabyte = 2 ** 30
-        for ranks, size in ((1, 120), (2, 150)):
+        # Sizes below what is refused before by the count of particles.
+        for ranks, size in ((1, 60), (2, 68)):
             out = folder("stops-memory")
             process = start(
                 "run", BAR, "-o", out, "--quiet", "--set",
