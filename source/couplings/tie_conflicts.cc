@@ -3,6 +3,7 @@
 #include "sabot/base/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -14,7 +15,7 @@ namespace
 struct HeldNode
 {
   GlobalIndex id;
-  Vec free, value;
+  std::array<double, 3> free, value; // by component
 };
 
 /** Of the body's owned nodes, those that are held. */
@@ -28,7 +29,9 @@ std::map<GlobalIndex, HeldNode> held_nodes(const Body &body,
     {
       const auto [free, value] = prescribed->held_at(i);
       if (free[0] * free[1] * free[2] == 0.)
-        mine.push_back({nodes.global_id[i], free, value});
+        mine.push_back({nodes.global_id[i],
+                        {{free[0], free[1], free[2]}},
+                        {{value[0], value[1], value[2]}}});
     }
   std::map<GlobalIndex, HeldNode> all;
   for (const HeldNode &node : gather_all(mine, communicator))

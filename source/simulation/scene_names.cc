@@ -20,7 +20,9 @@ void check_names(const Parameters &prm)
   std::map<std::string, std::string> files; // name of the body
   for (const std::string &name : split_names(prm.get("List of bodies")))
   {
-    if (name == "ledger" || name == "quantities")
+    const std::set<std::string> tables = {"ledger", "quantities", "forces",
+                                          "impulses"};
+    if (tables.count(name) > 0)
       throw InputError("List of bodies",
                        "a body cannot be called \"" + name +
                            "\": history.h5 has a table of this name");
