@@ -18,23 +18,31 @@ struct HeldNode
   std::array<double, 3> free, value; // by component
 };
 
-/** Of the body's owned nodes, those that are held. */
-std::map<GlobalIndex, HeldNode> held_nodes(const Body &body,
-                                           MPI_Comm communicator)
+/** Nodes owned by this rank that are held. */
+std::vector<HeldNode> held_here(const Body &body)
 {
-  std::vector<HeldNode> mine;
+  std::vector<HeldNode> held;
   const NodalState &nodes = body.nodes();
   if (const VelocityConstraints *const prescribed = body.prescribed())
     for (std::size_t i = 0; i < nodes.n_owned; ++i)
     {
       const auto [free, value] = prescribed->held_at(i);
       if (free[0] * free[1] * free[2] == 0.)
-        mine.push_back({nodes.global_id[i],
+        held.push_back({nodes.global_id[i],
                         {{free[0], free[1], free[2]}},
                         {{value[0], value[1], value[2]}}});
     }
+  return held;
+}
+
+/** Nodes of all ranks that are held. Collective. */
+std::map<GlobalIndex, HeldNode> held_nodes(const Body &body,
+                                           MPI_Comm communicator)
+{
+  const std::vector<HeldNode> mine = held_here(body),
+                              everywhere = gather_all(mine, communicator);
   std::map<GlobalIndex, HeldNode> all;
-  for (const HeldNode &node : gather_all(mine, communicator))
+  for (const HeldNode &node : everywhere)
     all.emplace(node.id, node);
   return all;
 }
