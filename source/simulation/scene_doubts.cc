@@ -33,6 +33,7 @@ void warn_of_doubts(const ParameterFile &file,
     else if (type(name) == "contact")
       unlisted.push_back(name);
   const MotionDoubts motion(scene, outlines, tied);
+  motion.refuse_irresistible();
   append(scene.warnings, motion.missing_contacts(unlisted));
   append(scene.warnings, motion.idle_contacts(contacts));
   append(scene.warnings, motion.idle_self_contacts(self_contacts));

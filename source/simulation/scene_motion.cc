@@ -149,6 +149,25 @@ std::vector<char> MotionDoubts::find_disturbed() const
   return disturbed;
 }
 
+void MotionDoubts::refuse_irresistible() const
+{
+  const auto is_prescribed = [this](const int i)
+  { return !facts[i].deforms && scene.bodies[i]->is_held(); };
+  for (int a = 0; a < int(facts.size()); ++a)
+    for (int b = a + 1; b < int(facts.size()); ++b)
+    {
+      if (is_joined(a, b) || !is_prescribed(a) || !is_prescribed(b))
+        continue;
+      if (const auto time = time_to_meeting(a, b))
+        throw InputError(
+            "Bodies/" + name(b) + "/Motion",
+            "is prescribed, as that of body " + quoted(name(a)) +
+                ", and the two meet after " + in_us(*time) +
+                ": no contact can keep them apart; let one of them "
+                "be free, or end the run before");
+    }
+}
+
 std::vector<std::string>
 MotionDoubts::missing_contacts(const std::vector<std::string> &unlisted) const
 {

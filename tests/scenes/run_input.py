@@ -122,6 +122,14 @@ class Input(unittest.TestCase):
             self.assertWarns(scene({"plate": PLATE, "rod": {**rod, **other}}),
                              "meet after 0.03333 us")
 
+    def test_rigid_bodies_whose_motion_is_prescribed_cannot_meet(self):
+        rigid = {"Discretization": "rigid", "Motion": "prescribed"}
+        both = {"plate": {**PLATE, **rigid}, "rod": {**ROD, **rigid}}
+        self.assertRefused(scene(both, IMPACT), "Bodies/rod/Motion",
+                           "the two meet after 0.03333 us")
+        free = {**both["rod"], "Motion": "free"}
+        self.assertWarns(scene({**both, "rod": free}, IMPACT))
+
     def test_contacts_that_never_act(self):
         def with_rod(**change):
             return scene({"plate": PLATE, "rod": dict(ROD, **{

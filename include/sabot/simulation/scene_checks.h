@@ -49,6 +49,9 @@ public:
   MotionDoubts(const Scene &scene, const std::vector<Outline> &outlines,
                const BodyPairs &tied);
 
+  /** InputError for two rigid bodies of prescribed motion that meet by the end
+      time: no force keeps them apart. */
+  void refuse_irresistible() const;
   /** Bodies that meet by the end time, or touch, and that no coupling keeps
       apart or together. @p unlisted: contacts that the file describes and the
       list leaves out. */
