@@ -47,8 +47,8 @@ ClosingLimit::ClosingLimit(
   for (const auto &[a, b] : known)
     if (a != b && !(is_prescribed(*bodies[a]) && is_prescribed(*bodies[b])))
       pairs.push_back(
-          {a, b, is_rigid[a] && is_rigid[b] ? part_of_rigid : part_of_others,
-           0.});
+          {a, b, is_rigid[a] && is_rigid[b],
+           is_rigid[a] && is_rigid[b] ? part_of_rigid : part_of_others, 0.});
   const auto walls = find_symmetry_walls(bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (const SymmetryWall &wall : walls[b])
@@ -58,7 +58,7 @@ ClosingLimit::ClosingLimit(
         Motion all{vec(-far, -far, -far), vec(far, far, far), {}, {}};
         (wall.side > 0. ? all.high : all.low)[wall.plane.axis] =
             wall.plane.coordinate;
-        pairs.push_back({int(b), int(motions.size()), part_of_rigid, 0.});
+        pairs.push_back({int(b), int(motions.size()), true, part_of_rigid, 0.});
         motions.push_back(all);
       }
   for (const Pair &pair : pairs)
@@ -67,11 +67,38 @@ ClosingLimit::ClosingLimit(
         is_used[m] = 1;
 }
 
+double ClosingLimit::part_of_pair(const int a, const int b) const
+{
+  constexpr double deepest = 0.25; // over the spacing
+  constexpr double phi = 0.1;      // the default of SpringOptions
+  double lightest = far, inverse_mass = 0.;
+  for (const int m : {a, b})
+  {
+    const NodalState &nodes = bodies[m]->nodes();
+    ExactSum mass;
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    {
+      mass.add(nodes.lumped_mass[i]);
+      if (!is_prescribed(*bodies[m]))
+        lightest = std::min(lightest, nodes.inertia[i]);
+    }
+    ExactSum::reduce({&mass}, communicator);
+    if (!is_prescribed(*bodies[m]))
+      inverse_mass += 1. / mass.value();
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &lightest, 1, MPI_DOUBLE, MPI_MIN, communicator);
+  return std::min(part_of_rigid,
+                  deepest * std::sqrt(phi * lightest * inverse_mass));
+}
+
 void ClosingLimit::initialize()
 {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (is_used[b])
       spacing[b] = bodies[b]->contact_surface().spacing;
+  for (Pair &pair : pairs)
+    if (pair.both_rigid && pair.b < int(bodies.size()))
+      pair.part = part_of_pair(pair.a, pair.b);
   for (Pair &pair : pairs)
     pair.spacing = pair.b < int(bodies.size())
                        ? std::min(spacing[pair.a], spacing[pair.b])
@@ -160,8 +187,7 @@ void ClosingLimit::bound_step(Pair &pair, const double dt)
     most[d] = std::max(std::abs(a.fastest[d] - b.slowest[d]),
                        std::abs(b.fastest[d] - a.slowest[d]));
   const double speed = norm(most), time = time_to_meet(a, b);
-  const bool both_rigid = pair.part == part_of_rigid;
-  pair.reference = both_rigid && time == 0.
+  pair.reference = pair.both_rigid && time == 0.
                        ? std::max(speed, (1. - forgets) * pair.reference)
                        : speed;
   if (time == 0. && is_step(dt))

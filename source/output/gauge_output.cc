@@ -48,6 +48,11 @@ public:
               const std::vector<const Body *> &bodies) override
   {
     its_table = name;
+    for (const char *const table :
+         {"ledger", "quantities", "forces", "impulses"})
+      if (name == table)
+        throw InputError(path, "a gauge cannot be called \"" + name +
+                                   "\": history.h5 has a table of this name");
     std::vector<std::string> names;
     for (const Body *const some : bodies)
     {

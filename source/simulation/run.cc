@@ -179,13 +179,15 @@ void Run::make_step(const StepProposal &proposal)
   if (!(dt > 0.))
     throw PhysicsError("no stable step exists any more (limiter: " + limiter +
                        ")");
-  if (proposal.dt < 1e-4 * smallest_step && stepper.steps() > 10)
-    throw PhysicsError("the stable step collapsed from " +
-                       format("%.3e", smallest_step) + " s to " +
-                       format("%.3e", proposal.dt) + " s (limiter: " + limiter +
-                       ")");
+  // Where nothing but rigid bodies bounds it, only the scene's own bound
+  // counts.
+  const double stable = std::min(proposal.dt, scene.settings.largest_step);
+  if (stable < 1e-4 * smallest_step && stepper.steps() > 10)
+    throw PhysicsError(
+        "the stable step collapsed from " + format("%.3e", smallest_step) +
+        " s to " + format("%.3e", stable) + " s (limiter: " + limiter + ")");
   if (dt < scene.settings.end_time - stepper.time())
-    smallest_step = std::min(smallest_step, proposal.dt);
+    smallest_step = std::min(smallest_step, stable);
   within_step = true;
   stepper.advance(dt);
   stepper.update();

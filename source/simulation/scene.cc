@@ -36,10 +36,24 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   const std::vector<Outline> outlines = take_outlines(*this);
   check_overlaps(*this, outlines);
   build_loads();
+  check_step_is_bounded();
   const auto tied = build_couplings();
   warn_of_doubts(file, outlines, tied, *this);
   build_outputs();
   build_quantities();
+}
+
+void Scene::check_step_is_bounded() const
+{
+  const bool deforms =
+      std::any_of(bodies.begin(), bodies.end(),
+                  [](const auto &body) { return body->moves_node_by_node(); });
+  if (!deforms && !loads.empty() && settings.largest_step > settings.end_time)
+    throw InputError("Largest step",
+                     "is needed where all bodies are rigid and loads act, for "
+                     "nothing else bounds the step; give what resolves the "
+                     "course of the loads and the way between contacts, for "
+                     "example a thousandth of the end time");
 }
 
 std::vector<std::string> Scene::names_of(const std::string &list) const

@@ -292,9 +292,9 @@ public:
   /** Kinetic energy of the last half kick by itself, sum of m |dt f/(2 m)|^2/2
       over owned nodes that it moves [J]. What stands in the ledger is v at
       whole steps, and works along v at half steps: their difference is this
-      energy, which comes and goes with the forces. Zero of bodies that do not
-      move node by node. Local. */
-  void add_kick_energy(const double dt, ExactSum &sum) const;
+      energy, which comes and goes with the forces. Of a rigid body by its six
+      degrees of freedom. Collective; each adds its share. */
+  virtual void add_kick_energy(const double dt, ExactSum &sum) const;
   /** Add this rank's share. [J], owned nodes and items only, so that the sum
       over ranks counts each once. Local. */
   virtual void add_energies(EnergyLedger &ledger) const = 0;

@@ -43,9 +43,10 @@ struct SpringOptions
 
 /**
  * The step that bounds stiffnesses: at least the present one, and falling by no
- * more than a thousandth each time. Steps of particles go up and down by a
- * percent, and the last one of a run is any; stiffnesses that followed them
- * would shake what rests.
+ * more than a thousandth each time while it is within half of the present one:
+ * steps of particles go up and down by a percent, and stiffnesses that followed
+ * them would shake what rests. Steps that fall by more, as before rigid bodies
+ * meet, are followed: a bound far behind would leave no stiffness.
  */
 class SteadyStep
 {
@@ -53,7 +54,7 @@ public:
   /** @return the bound's step after one of @p dt [s]. */
   double follow(const double dt)
   {
-    value = std::max(dt, 0.999 * value);
+    value = std::max(dt, std::min(0.999 * value, 1.5 * dt));
     return value;
   }
   double value = 0.; // [s]; goes into checkpoints

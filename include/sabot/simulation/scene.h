@@ -138,6 +138,8 @@ private:
   void build_materials(const ParameterFile &file);
   /** Of all kinds, in the order of the list. */
   void build_loads();
+  /** InputError where rigid bodies and loads leave the step without a bound. */
+  void check_step_is_bounded() const;
   /**
    * In the order that their builders ask for, equal ones in the list's; those
    * that act last, as ties do, at the end. Warns of zones without a tie to

@@ -226,6 +226,29 @@ void RigidBody::accumulate_work(const double half_dt)
     }
 }
 
+void RigidBody::add_kick_energy(const double dt, ExactSum &sum) const
+{
+  if (is_prescribed)
+    return;
+  ExactVectorSum force, torque;
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  {
+    const Vec f = nodal_state.force[i];
+    force.add(f);
+    torque.add(cross(nodal_state.position[i] - center, f));
+  }
+  ExactVectorSum::reduce({&force, &torque}, communicator);
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  if (rank != 0) // once, as all know it
+    return;
+  const auto as_vec = [](const std::array<double, 3> &v)
+  { return vec(v[0], v[1], v[2]); };
+  const Vec f = as_vec(force.value()),
+            t = transpose(matrix(quaternion)) * as_vec(torque.value());
+  sum.add(dt * dt / 8. * (norm_square(f) / mass + dot(t, inverse_inertia * t)));
+}
+
 std::vector<Resultant> RigidBody::reactions() const
 {
   if (!is_prescribed)

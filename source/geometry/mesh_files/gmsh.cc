@@ -1,4 +1,5 @@
 // Meshes of gmsh: MSH 2.2, 4.0 and 4.1, text and binary.
+#include "sabot/base/text.h"
 #include "sabot/geometry/mesh_text.h"
 
 #include <algorithm>
@@ -137,7 +138,8 @@ private:
       const std::string_view rest = text.line();
       if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"')
         text.refuse("the name of a physical group does not stand in quotes");
-      name[{int(dimension), number}] = rest.substr(1, rest.size() - 2);
+      name[{int(dimension), number}] =
+          trim(std::string(rest.substr(1, rest.size() - 2)));
     }
   }
 

@@ -109,6 +109,9 @@ public:
   /** Of a prescribed body; every rank gives the same. */
   void move_rigidly(const Vec velocity, const Vec angular_velocity,
                     const bool is_start) override;
+  /** dt^2/8 (F . F/m + T . I^-1 T) with the force and the torque about the
+      center; none of a prescribed motion. */
+  void add_kick_energy(const double dt, ExactSum &sum) const override;
   void visit_state(StateVisitor &visitor) override;
   /** All boundary faces of the mesh that are complete here; the spacing is
       the root of the mean area [m] of all, on every rank. */
