@@ -56,7 +56,7 @@ private:
   };
   struct Pair
   {
-    int a, b; // of motions
+    int a, b;        // of motions
     bool both_rigid; // or rigid and a plane
     double part, spacing;
     double reference = 0.; // speed [m/s]
