@@ -21,7 +21,8 @@ for ((i = 1; i < $#; ++i)); do
   case ${!i} in -o | --output) next=$((i + 1)) folder=${!next} ;; esac
 done
 echo
-if [ -f "$folder/result.json" ]; then
+# A run that was refused (1) has left what stands there as it was.
+if [ $code -ne 1 ] && [ -f "$folder/result.json" ]; then
   python3 - "$folder/result.json" <<'PY'
 import json, sys
 result = json.load(open(sys.argv[1]))
