@@ -1,6 +1,8 @@
 // The step limit of bodies that close in on each other.
 #include "sabot/couplings/closing_limit.h"
 
+#include "sabot/couplings/contact_spring.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,7 +72,7 @@ ClosingLimit::ClosingLimit(
 double ClosingLimit::part_of_pair(const int a, const int b) const
 {
   constexpr double deepest = 0.25; // over the spacing
-  constexpr double phi = 0.1;      // the default of SpringOptions
+  const double phi = SpringOptions().stability_fraction;
   double lightest = far, inverse_mass = 0.;
   for (const int m : {a, b})
   {

@@ -5,6 +5,7 @@
 #include "sabot/base/parameters.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body.h"
+#include "sabot/output/history.h"
 #include "sabot/output/item_fields.h"
 #include "sabot/output/output.h"
 #include "sabot/output/run_files.h"
@@ -48,11 +49,9 @@ public:
               const std::vector<const Body *> &bodies) override
   {
     its_table = name;
-    for (const char *const table :
-         {"ledger", "quantities", "forces", "impulses"})
-      if (name == table)
-        throw InputError(path, "a gauge cannot be called \"" + name +
-                                   "\": history.h5 has a table of this name");
+    if (is_table_of_runs(name))
+      throw InputError(path, "a gauge cannot be called \"" + name +
+                                 "\": history.h5 has a table of this name");
     std::vector<std::string> names;
     for (const Body *const some : bodies)
     {

@@ -1,5 +1,6 @@
 // Names of a scene that would meet in its results.
 #include "sabot/output/file_names.h"
+#include "sabot/output/history.h"
 #include "sabot/simulation/scene_checks.h"
 
 #include <map>
@@ -20,9 +21,7 @@ void check_names(const Parameters &prm)
   std::map<std::string, std::string> files; // name of the body
   for (const std::string &name : split_names(prm.get("List of bodies")))
   {
-    const std::set<std::string> tables = {"ledger", "quantities", "forces",
-                                          "impulses"};
-    if (tables.count(name) > 0)
+    if (is_table_of_runs(name))
       throw InputError("List of bodies",
                        "a body cannot be called \"" + name +
                            "\": history.h5 has a table of this name");

@@ -38,12 +38,8 @@ double value(const nlohmann::json &result, const std::string &name)
   return result["quantities"][name]["value"].get<double>();
 }
 
-/** A block of particles that flies along x, cut at z = 0, with all quantities
-    of one body. */
-const char *const block = R"(
-set End time           = 1 us
-set List of bodies     = block
-set List of quantities = hole, foot, middle, piece, plug, absorbed
+/** The material of the scenes here. */
+const char *const metal = R"(
 subsection Materials
   subsection metal
     set Model           = Elastic
@@ -51,6 +47,14 @@ subsection Materials
     set Young's modulus = 70 GPa
   end
 end
+)";
+
+/** A block of particles that flies along x, cut at z = 0, with all quantities
+    of one body. */
+const char *const block = R"(
+set End time           = 1 us
+set List of bodies     = block
+set List of quantities = hole, foot, middle, piece, plug, absorbed
 subsection Bodies
   subsection block
     set Discretization   = SPG
@@ -97,7 +101,7 @@ end
 
 TEST_F(Quantities, of_a_flying_block)
 {
-  std::ofstream(folder + "/block.prm") << block;
+  std::ofstream(folder + "/block.prm") << metal << block;
   const nlohmann::json r = run(folder + "/block.prm", {});
   // After 1 us at 100 m/s its near face is at x = 18.1 mm.
   EXPECT_NEAR(value(r, "hole"), 2. * 18.1e-3, 1e-8);
@@ -186,13 +190,6 @@ set End time           = 0.1 us
 set List of bodies     = plate, core
 set List of couplings  = zone
 set List of quantities = hole, filled
-subsection Materials
-  subsection metal
-    set Model           = Elastic
-    set Density         = 2700 kg/m^3
-    set Young's modulus = 70 GPa
-  end
-end
 subsection Bodies
   subsection plate
     set Size      = 16 mm, 16 mm, 2 mm
@@ -231,7 +228,7 @@ end
 
 TEST_F(Quantities, of_a_carved_hole)
 {
-  std::ofstream(folder + "/carved.prm") << carved;
+  std::ofstream(folder + "/carved.prm") << metal << carved;
   const nlohmann::json r = run(folder + "/carved.prm", {});
   EXPECT_NEAR(value(r, "hole"), 4e-3, 1e-8); // the nearer faces
   EXPECT_NEAR(value(r, "filled"), 0., 1e-8);

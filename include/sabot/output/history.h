@@ -9,6 +9,13 @@
 
 namespace sabot
 {
+/** Tables that every history may have: no body or gauge can be called so. */
+inline bool is_table_of_runs(const std::string &name)
+{
+  return name == "ledger" || name == "quantities" || name == "forces" ||
+         name == "impulses";
+}
+
 /**
  * Tables of numbers over time: one per body, one for the energy ledger and one
  * for the quantities of interest, a row per history step, SI units. history.h5
