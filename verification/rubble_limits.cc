@@ -135,7 +135,7 @@ Column press(const bool confined)
       column.stress -= s[2] / Y;
       q += std::sqrt(1.5 * square);
       p -= mean;
-      J = determinant(rubble.body->deformation_gradient(i));
+      J = determinant(rubble.body->rooms().fields.deformation_gradient(i));
       volume += 1.;
     }
   column.stress /= volume;

@@ -26,7 +26,7 @@ Errors move(SpgBody &body, const Mat &A, const Mat &wanted_stress,
   Errors errors;
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
-    const Mat F = body.deformation_gradient(i);
+    const Mat F = body.rooms().fields.deformation_gradient(i);
     for (int c = 0; c < 3; ++c)
       errors.gradient = std::max(errors.gradient, norm(F.row[c] - A.row[c]));
     for (int c = 0; c < 6; ++c)
@@ -76,14 +76,14 @@ void add_checks(std::vector<Check> &checks, const std::string &name,
         move(body, A, stress,
              rotate ? 1e-3 * aluminum().young_modulus : stress(2, 2));
     (rotate ? rotation : patch) = errors;
-    const BondList &bonds = body.bond_list();
+    const BondList &bonds = body.rooms().bonds;
     double n_bonds = 0.;
     const std::size_t n = body.nodes().n_owned;
     for (std::size_t i = 0; i < n; ++i)
     {
       n_bonds += bonds.n_bonds(i);
       least_bonds = std::min(least_bonds, double(bonds.n_bonds(i)));
-      n_weak += body.damage(i).lost_direction;
+      n_weak += body.rooms().approximation.lost_direction[i];
     }
     mean_bonds = n_bonds / n;
   }
@@ -148,7 +148,7 @@ std::vector<Check> clouds()
     const auto &body = static_cast<SpgBody &>(*world.bodies[0]);
     double n = 0.;
     for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-      n += body.bond_list().n_bonds(i);
+      n += body.rooms().bonds.n_bonds(i);
     return n;
   };
   const double bonds_of_cube = count(make_mesh_cloud(mesh)),

@@ -76,7 +76,7 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
   const double broken = measure(body, "bonds broken");
   std::size_t left = 0;
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-    left += body.bond_list().n_bonds(i);
+    left += body.rooms().bonds.n_bonds(i);
   checks.push_back({who + ": bonds that fail then", 1., broken, 0., "1",
                     "uniform deformation", Check::Kind::at_least});
   // Back to rest and beyond: none comes back, none fails in compression.
@@ -87,7 +87,7 @@ void add_criterion(std::vector<Check> &checks, const std::string &who,
     deform(body, motion(load), dt, ++n);
     std::size_t bonds = 0;
     for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-      bonds += body.bond_list().n_bonds(i);
+      bonds += body.rooms().bonds.n_bonds(i);
     most = std::max(most, bonds);
     after = measure(body, "bonds broken");
   }
@@ -132,10 +132,10 @@ void critical_stretch(std::vector<Check> &checks)
   // What is left is not longer than the critical stretch.
   const NodalState &nodes = body.nodes();
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
-    for (std::size_t b = body.bond_list().begin(i); b < body.bond_list().end(i);
-         ++b)
+    for (std::size_t b = body.rooms().bonds.begin(i);
+         b < body.rooms().bonds.end(i); ++b)
     {
-      const std::uint32_t j = body.bond_list().neighbor[b];
+      const std::uint32_t j = body.rooms().bonds.neighbor[b];
       wrong += norm(nodes.position[j] - nodes.position[i]) >
                1.05 * norm(nodes.reference_position[j] -
                            nodes.reference_position[i]);
@@ -229,10 +229,10 @@ Pairs pairs_of(const SpgBody &body)
   const NodalState &n = body.nodes();
   Pairs all;
   for (std::size_t i = 0; i < n.n_owned; ++i)
-    for (std::size_t b = body.bond_list().begin(i); b < body.bond_list().end(i);
-         ++b)
+    for (std::size_t b = body.rooms().bonds.begin(i);
+         b < body.rooms().bonds.end(i); ++b)
       all.emplace_back(n.global_id[i],
-                       n.global_id[body.bond_list().neighbor[b]]);
+                       n.global_id[body.rooms().bonds.neighbor[b]]);
   return all;
 }
 
@@ -280,7 +280,7 @@ void press_halves(std::vector<Check> &checks,
   const Pairs failed = without(original, pairs_of(body));
   // Compression and shear by half a spacing over the height: searches find
   // what has come near.
-  const std::size_t updates = body.n_kernel_updates();
+  const std::size_t updates = body.rooms().watch.n_updates;
   for (int k = 0; k < 200; ++k, ++step)
   {
     A.set(0, 0, 1.02 - 5e-4 * k);
@@ -295,7 +295,7 @@ void press_halves(std::vector<Check> &checks,
   checks.push_back({who + "bonds failed", 10., double(failed.size()), 0., "1",
                     "so that some could heal", Check::Kind::at_least});
   checks.push_back({who + "kernel updates since", 40.,
-                    double(body.n_kernel_updates() - updates), 0., "1",
+                    double(body.rooms().watch.n_updates - updates), 0., "1",
                     "searches", Check::Kind::at_least});
   checks.push_back({who + "failed bonds that came back", 0., double(n_healed),
                     0., "1", "irreversible"});
@@ -324,8 +324,9 @@ void shear_intact(std::vector<Check> &checks,
   }
   double error = 0.;
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-    error =
-        std::max(error, std::abs(body.deformation_gradient(i)(0, 1) - A(0, 1)));
+    error = std::max(
+        error,
+        std::abs(body.rooms().fields.deformation_gradient(i)(0, 1) - A(0, 1)));
   const std::string who = policy == SpgOptions::NeighborPolicy::search
                               ? "search, intact block: "
                               : "search undamaged, intact block: ";
@@ -372,7 +373,8 @@ std::vector<Check> weak_particles()
   std::vector<std::size_t> weak;
   double tension = -1e300;
   for (std::size_t i = 0; i < n.n_owned; ++i)
-    if (body.damage(i).lost_direction && body.bond_list().n_bonds(i) >= 4)
+    if (body.rooms().approximation.lost_direction[i] &&
+        body.rooms().bonds.n_bonds(i) >= 4)
     {
       weak.push_back(i);
       for (int c = 0; c < 3; ++c)

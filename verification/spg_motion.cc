@@ -79,8 +79,9 @@ std::vector<Check> spg_spin()
            "conservation"},
           {"mean elastic energy, turns 6-10 over 1-5", 1.,
            late / n_late * n_early / early, 0.02, "1", "no growth"},
-          {"kernel updates on the way", 0., double(body.n_kernel_updates()), 0.,
-           "1", "rotation needs none", Check::Kind::near}};
+          {"kernel updates on the way", 0.,
+           double(body.rooms().watch.n_updates), 0., "1", "rotation needs none",
+           Check::Kind::near}};
 }
 
 std::vector<Check> spg_simple_shear()
@@ -105,9 +106,10 @@ std::vector<Check> spg_simple_shear()
   {
     xy = std::max(xy, std::abs(body.stress(3, i) / G - std::sin(shear)));
     xx = std::max(xx, std::abs(body.stress(0, i) / G - 1. + std::cos(shear)));
-    F_error =
-        std::max(F_error, std::abs(body.deformation_gradient(i)(0, 1) - shear));
-    n_weak += body.damage(i).lost_direction;
+    F_error = std::max(
+        F_error,
+        std::abs(body.rooms().fields.deformation_gradient(i)(0, 1) - shear));
+    n_weak += body.rooms().approximation.lost_direction[i];
   }
   return {{"s_xy/G - sin(5), largest", 0., xy, 1.5e-3, "1", "Dienes 1979"},
           {"s_xx/G - (1 - cos 5), largest", 0., xx, 1.5e-3, "1", "Dienes 1979"},
@@ -160,12 +162,12 @@ std::vector<Check> spg_large_strain()
       std::size_t n_weak = 0;
       for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
       {
-        const Mat F = body.deformation_gradient(i);
+        const Mat F = body.rooms().fields.deformation_gradient(i);
         for (int a = 0; a < 3; ++a)
           for (int b = 0; b < 3; ++b)
             error = std::max(error,
                              std::abs(F(a, b) - (a == b ? c.stretch[a] : 0.)));
-        n_weak += body.damage(i).lost_direction;
+        n_weak += body.rooms().approximation.lost_direction[i];
       }
       const double n_fallbacks =
           is_convex ? body.measure().find("approximation fallbacks") : 0.;
@@ -256,7 +258,7 @@ std::vector<Check> spg_vibration_updates()
   world.stepper.initialize();
   const double energy = world.total_energy();
   double worst = 0.;
-  while (body.n_kernel_updates() < 100)
+  while (body.rooms().watch.n_updates < 100)
   {
     world.advance(0.45);
     worst = std::max(worst, std::abs(world.total_energy() - energy));
@@ -309,7 +311,8 @@ std::vector<Check> spg_twisting_column()
     last = now;
     twist = std::max(twist, angle);
     for (std::size_t i = 0; i < n.n_owned; ++i)
-      lowest = std::min(lowest, determinant(body.deformation_gradient(i)));
+      lowest = std::min(
+          lowest, determinant(body.rooms().fields.deformation_gradient(i)));
   }
   return {{"energy, largest relative change", 0., worst / energy, 0.02, "1",
            "conservation"},

@@ -41,7 +41,7 @@ double front(const double h, const std::optional<double> &length,
   body.update_topology(1, 0.);
   double last = -1.;
   for (std::size_t i = 0; i < n.n_owned; ++i)
-    if (body.damage(i).has_crumbled)
+    if (body.rooms().failure.has_crumbled(i))
       last = std::max(last, n.reference_position[i][0]);
   return last;
 }

@@ -30,7 +30,7 @@ std::vector<Check> spg_patch()
     largest[c] = smallest[c] = body.stress(c, 0);
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
-    const Mat F = body.deformation_gradient(i);
+    const Mat F = body.rooms().fields.deformation_gradient(i);
     for (int c = 0; c < 3; ++c)
       gradient_error = std::max(gradient_error, norm(F.row[c] - A.row[c]));
     for (int c = 0; c < 6; ++c)

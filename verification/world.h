@@ -28,8 +28,10 @@ struct World
     for (auto &body : bodies)
     {
       const auto &points = body->partition_points();
-      body->node_owner = partition(
-          points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
+      body->node_owner.clear();
+      if (!points.empty()) // those of a body that grows follow its host's
+        body->node_owner = partition(
+            points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
       body->distribute(body->node_owner, MPI_COMM_WORLD);
     }
     for (auto c = couplings.rbegin(); c != couplings.rend(); ++c)

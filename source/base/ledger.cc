@@ -5,7 +5,7 @@
 
 namespace sabot
 {
-const std::array<EnergyTerm, 12> energy_terms = {{
+const std::array<EnergyTerm, 13> energy_terms = {{
     {"kinetic", EnergyTerm::Role::part, "1/2 m v^2 of all nodes.",
      &EnergyLedger::kinetic},
     {"internal", EnergyTerm::Role::part,
@@ -46,6 +46,11 @@ const std::array<EnergyTerm, 12> energy_terms = {{
      "Minus the work of the ties on followers and leaders together: zero but "
      "for round-off.",
      &EnergyLedger::tie},
+    {"conversion", EnergyTerm::Role::part,
+     "What cells that turned into particles held and particles do not: "
+     "hourglass energy, and what means of stresses hold less than the "
+     "stresses.",
+     &EnergyLedger::conversion},
 }};
 
 ExactSum EnergyLedger::total() const

@@ -38,6 +38,24 @@ void MaterialPoints::allocate(const std::size_t n, const std::size_t stride)
   plastic_work.assign(stride, 0.);
 }
 
+void MaterialPoints::extend(const std::size_t n)
+{
+  const MaterialPoints old = *this;
+  allocate(n, n);
+  const auto copy =
+      [&](const AlignedVector<double> &from, AlignedVector<double> &to)
+  {
+    for (std::size_t r = 0; r * n < to.size(); ++r)
+      std::copy_n(from.begin() + r * old.row_length, old.n_points,
+                  to.begin() + r * n);
+  };
+  copy(old.stress, stress);
+  copy(old.state_data, state_data);
+  copy(old.viscous_pressure, viscous_pressure);
+  copy(old.internal_energy, internal_energy);
+  copy(old.plastic_work, plastic_work);
+}
+
 void MaterialPoints::keep(const std::vector<std::size_t> &kept,
                           const std::size_t per_group, const std::size_t stride)
 {

@@ -14,6 +14,12 @@ void VelocityConstraints::prescribe(const std::size_t i, const int axis,
 void VelocityConstraints::finish()
 {
   held.clear();
+  impulse.clear();
+  append();
+}
+
+void VelocityConstraints::append()
+{
   for (const auto &[node, axis] : collected)
   {
     held.push_back({node,
@@ -22,7 +28,7 @@ void VelocityConstraints::finish()
                     {{axis[0].by, axis[1].by, axis[2].by}}});
     has_work = has_work || norm_square(held.back().value) > 0.;
   }
-  impulse.assign(held.size(), Vec{});
+  impulse.resize(held.size(), Vec{});
   collected.clear();
 }
 
@@ -86,7 +92,7 @@ VelocityConstraints::reactions(const NodalState &nodes, const int body,
 {
   const std::array<Holder, 3> all = {
       {Holder::symmetry, Holder::drive, Holder::clamp}};
-  int is_there[3] = {0, 0, 0};
+  int is_there[3] = {is_expected[0], is_expected[1], is_expected[2]};
   for (const Held &h : held)
     for (int d = 0; d < 3; ++d)
       if (h.free[d] == 0.)

@@ -45,8 +45,9 @@ void ParticleContact::initialize()
 
 void ParticleContact::update_search(const unsigned int, const double dt)
 {
-  traveled += largest_closing_speed(bodies, pairs, communicator) * dt;
-  if (traveled > allowance)
+  age.traveled += largest_closing_speed(bodies, pairs, communicator) * dt;
+  // Bodies that grow have new particles at once.
+  if (age.traveled > allowance || age.have_changed(bodies))
     search();
 }
 
@@ -75,7 +76,7 @@ ParticleContact::Group ParticleContact::make_group(
 
 void ParticleContact::search()
 {
-  traveled = 0.;
+  age.traveled = 0.;
   const ParticleSearch found(bodies, pairs, skin, communicator);
   allowance = std::max(skin, found.gap());
   // Owners look for what their nodes may touch.
@@ -334,7 +335,7 @@ Measures ParticleContact::measure() const
 
 void ParticleContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("traveled", traveled);
+  age.visit_state(visitor);
   visitor.visit_value("allowance", allowance);
   visitor.visit_value("penetration", penetration_over_spacing);
   visitor.visit_value("steady step", points.steady_step.value);

@@ -52,10 +52,10 @@ void SelfContact::update_search(const unsigned int, const double dt)
   double speed = largest_closing_speed(bodies, body_pairs, communicator);
   if (images.any())
     speed = std::max(speed, speed_towards_images());
-  traveled += speed * dt;
+  age.traveled += speed * dt;
   // Newly failed particles are met at the next search; those that come close
   // by then were bonded until the last kernel update.
-  if (traveled > skin)
+  if (age.traveled > skin || age.have_changed(bodies))
     search();
 }
 
@@ -161,7 +161,7 @@ void SelfContact::find_pairs()
 
 void SelfContact::search()
 {
-  traveled = 0.;
+  age.traveled = 0.;
   find_pairs();
   build_halo();
   if (!options.shear_strength.needs_flow_stress())
@@ -288,7 +288,7 @@ Measures SelfContact::measure() const
 
 void SelfContact::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("traveled", traveled);
+  age.visit_state(visitor);
   visitor.visit_value("loose particles", n_loose);
   // A pair knows at which distance it was first met.
   visitor.visit_resized("pairs", pairs);

@@ -124,6 +124,8 @@ void CentralDifference::update_topology(const unsigned int step)
   bool changed = false;
   for (auto &body : bodies)
     changed |= body->update_topology(step, time);
+  for (auto &coupling : couplings)
+    changed |= coupling->change_bodies(step);
   // The half step that starts now feels what there is now.
   if (changed)
     for (auto &coupling : couplings)

@@ -1,8 +1,10 @@
 // Bodies of a scene from their shapes, zones and discretizations.
 #include "sabot/simulation/body_assembly.h"
 
+#include "sabot/base/choice.h"
 #include "sabot/base/error_report.h"
 #include "sabot/base/text.h"
+#include "sabot/bodies/conversion/conversion.h"
 #include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_import.h"
 #include "sabot/geometry/mesh_layers.h"
@@ -39,7 +41,10 @@ void BodyAssembly::build(const std::vector<std::string> &names)
     within_memory("body \"" + name + "\"",
                   [&]() { bodies.push_back(make_body(name, bodies.size())); });
   for (const Carving &carving : carvings)
-    zones.push_back(record(carving));
+    if (carving.finds_itself)
+      growing.push_back(record_growing(carving));
+    else
+      zones.push_back(record(carving));
 }
 
 void BodyAssembly::find_postures(const std::vector<std::string> &names)
@@ -101,8 +106,12 @@ Carving BodyAssembly::read_carving(const std::string &name,
   carving.body = from;
   carving.zone = name;
   carving.shape = *zone;
-  carving.follows_mesh =
-      !shape->has_lattice() || !shape_of(from)->has_lattice();
+  carving.finds_itself =
+      discretization_of(name)->conversion(prm, path).has_value();
+  carving.has_start = !carving.finds_itself || file.is_set(path + "/Size") ||
+                      file.is_set(path + "/Radius");
+  carving.follows_mesh = carving.finds_itself || !shape->has_lattice() ||
+                         !shape_of(from)->has_lattice();
   return carving;
 }
 
@@ -116,20 +125,32 @@ void BodyAssembly::carve_meshes()
     {
       const EnteredSubsection entered(prm, "Bodies", c.body);
       size = discretization_of(c.body)->cell_size(prm);
-      const NamedMesh whole = make_mesh("Bodies/" + c.body, size, &c);
-      CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
-                               "Bodies/" + c.zone + "/Center");
-      for (const std::string &name : {c.body, c.zone})
+      const NamedMesh whole =
+          make_mesh("Bodies/" + c.body, size, c.has_start ? &c : nullptr);
+      if (c.finds_itself)
       {
-        cells[name].faces = whole.faces;
-        cells[name].groups = whole.groups;
-        cells[name].unusable = whole.unusable;
+        cells[c.body] = cells[c.zone] = whole;
+        if (!shape_of(c.body)->follows_cell_size())
+          size = make_mesh_cloud(whole.mesh).spacing[0];
       }
-      cells[c.body].mesh = std::move(parts.rest);
-      cells[c.zone].mesh = std::move(parts.zone);
-      if (!shape_of(c.body)->follows_cell_size())
-        size = make_mesh_cloud(cells[c.zone].mesh).spacing[0];
+      else
+      {
+        CarvedMesh parts = carve(whole.mesh, c.shape, whole.faces.size(),
+                                 "Bodies/" + c.zone + "/Center");
+        for (const std::string &name : {c.body, c.zone})
+        {
+          cells[name].faces = whole.faces;
+          cells[name].groups = whole.groups;
+          cells[name].unusable = whole.unusable;
+        }
+        cells[c.body].mesh = std::move(parts.rest);
+        cells[c.zone].mesh = std::move(parts.zone);
+        if (!shape_of(c.body)->follows_cell_size())
+          size = make_mesh_cloud(cells[c.zone].mesh).spacing[0];
+      }
     }
+    if (c.finds_itself)
+      take_from_host(c);
     const EnteredSubsection entered(prm, "Bodies", c.zone);
     discretization_of(c.zone)->follow_spacing(prm, file, "Bodies/" + c.zone,
                                               size);
@@ -253,18 +274,59 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
                  [&]() { return discretization_of(name)->build(request); });
 }
 
+int BodyAssembly::number_of(const std::string &name) const
+{
+  int b = 0;
+  while (bodies[b]->name != name)
+    ++b;
+  return b;
+}
+
+void BodyAssembly::take_from_host(const Carving &carving)
+{
+  for (const std::string entry :
+       {"Symmetry faces", "Clamped faces", "Initial velocity", "Material"})
+  {
+    const std::string path = "Bodies/" + carving.zone + "/" + entry;
+    const auto value_at = [&](const std::string &body)
+    {
+      const EnteredSubsection entered(prm, "Bodies", body);
+      return prm.get(entry);
+    };
+    const std::string its = value_at(carving.body);
+    if (file.is_set(path) && !same_value(value_at(carving.zone), its))
+      throw InputError(path, "is " + value_at(carving.zone) +
+                                 ", but the particles are of body \"" +
+                                 carving.body + "\", where it is \"" + its +
+                                 "\"; remove the entry");
+    const EnteredSubsection entered(prm, "Bodies", carving.zone);
+    prm.set(entry, its);
+  }
+}
+
+GrowingZone BodyAssembly::record_growing(const Carving &carving)
+{
+  GrowingZone zone;
+  zone.zone = number_of(carving.zone);
+  zone.host = number_of(carving.body);
+  if (carving.has_start)
+    zone.start = carving.shape;
+  zone.turn = postures.at(carving.body).turn;
+  const std::string path = "Bodies/" + carving.zone;
+  const EnteredSubsection entered(prm, "Bodies", carving.zone);
+  zone.request = *discretization_of(carving.zone)->conversion(prm, path);
+  const Material &law = *bodies[zone.host]->facts().material;
+  for (const auto &criterion : zone.request.criteria)
+    criterion->check(law, path);
+  bodies[zone.host]->cell_source()->convert_by(zone.request.criteria);
+  return zone;
+}
+
 CarvedZone BodyAssembly::record(const Carving &carving) const
 {
-  const auto number = [&](const std::string &name)
-  {
-    int b = 0;
-    while (bodies[b]->name != name)
-      ++b;
-    return b;
-  };
   CarvedZone zone;
-  zone.zone = number(carving.zone);
-  zone.host = number(carving.body);
+  zone.zone = number_of(carving.zone);
+  zone.host = number_of(carving.body);
   zone.shape = carving.shape;
   zone.turn = postures.at(carving.body).turn;
   constexpr double far = std::numeric_limits<double>::max();

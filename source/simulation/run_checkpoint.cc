@@ -43,7 +43,10 @@ void Run::visit_all(Visitor &visitor)
   {
     visitor.section = "body " + body->name;
     // The partition must be the one of the run that wrote it; ghosts follow
-    // from the state of the body.
+    // from the state of the body, and of one that grows the nodes, too.
+    const bool grows = body->particle_sink() != nullptr;
+    if (grows)
+      body->visit_state(visitor);
     const auto &ids = body->nodes().global_id;
     const std::vector<GlobalIndex> owned(ids.begin(),
                                          ids.begin() + body->nodes().n_owned);
@@ -52,7 +55,8 @@ void Run::visit_all(Visitor &visitor)
     if (nodes != owned)
       throw IOError("the checkpoint does not fit: nodes of body \"" +
                     body->name + "\" are spread over the ranks otherwise");
-    body->visit_state(visitor);
+    if (!grows)
+      body->visit_state(visitor);
   }
   for (const auto &load : scene.loads)
   {

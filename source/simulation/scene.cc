@@ -4,6 +4,7 @@
 #include "sabot/base/error_report.h"
 #include "sabot/couplings/closing_limit.h"
 #include "sabot/couplings/coupling_builder.h"
+#include "sabot/couplings/self_finding_zone.h"
 #include "sabot/couplings/symmetry_walls.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/simulation/body_assembly.h"
@@ -27,6 +28,7 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   assembly.build(names_of("bodies"));
   bodies = std::move(assembly.bodies);
   zones = std::move(assembly.zones);
+  growing = std::move(assembly.growing);
   notes = file.notes();
   notes.insert(notes.end(), assembly.notes.begin(), assembly.notes.end());
   warnings.insert(warnings.end(), assembly.warnings.begin(),
@@ -144,6 +146,8 @@ std::set<std::pair<int, int>> Scene::build_couplings()
       {},
       {}};
   std::vector<std::unique_ptr<Coupling>> last;
+  for (const GrowingZone &zone : growing)
+    context.tied.insert({zone.zone, zone.host});
   for (const Listed &item : listed)
   {
     const EnteredSubsection entered(prm, "Couplings", item.name);
@@ -152,6 +156,8 @@ std::set<std::pair<int, int>> Scene::build_couplings()
          item.builder->build(prm, "Couplings/" + item.name, item.name, context))
       list.push_back(std::move(coupling));
   }
+  for (const GrowingZone &zone : growing)
+    last.insert(last.begin(), self_finding_zone(zone, context));
   auto planes = std::make_unique<SymmetryWalls>(body_pointers(), communicator);
   if (planes->any())
     couplings.push_back(std::move(planes));
@@ -176,6 +182,19 @@ std::set<std::pair<int, int>> Scene::build_couplings()
                          "\" is carved from \"" + bodies[zone.host]->name +
                          "\" but not tied to it");
   return context.tied;
+}
+
+std::unique_ptr<Coupling>
+Scene::self_finding_zone(const GrowingZone &zone,
+                         const CouplingContext &context) const
+{
+  SelfFindingOptions options{zone.zone, zone.host, zone.request.interval, {}};
+  if (zone.start)
+    options.is_start = [zone](const std::array<double, 3> &place)
+    { return zone.start->contains(zone.turn.origin(place)); };
+  return std::make_unique<SelfFindingZone>(
+      bodies[zone.zone]->name + " in " + bodies[zone.host]->name,
+      body_pointers(), options, communicator, context.tied_nodes);
 }
 
 void Scene::warn_of_lone_debris()

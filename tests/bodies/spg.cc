@@ -58,7 +58,7 @@ TEST(Spg, a_linear_field_is_reproduced_on_a_perturbed_cloud)
   const double scale = 1e8;
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
   {
-    const Mat F = body.deformation_gradient(i);
+    const Mat F = body.rooms().fields.deformation_gradient(i);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
         EXPECT_NEAR(F(a, b), A(a, b), 1e-13);
@@ -356,7 +356,7 @@ TEST(Spg, a_torn_particle_does_not_flow)
         1e-8);
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
   {
-    EXPECT_TRUE(body.damage(i).lost_direction);
+    EXPECT_TRUE(body.rooms().approximation.lost_direction[i]);
     EXPECT_EQ(body.state("effective plastic strain", i), 0.);
     EXPECT_EQ(body.state("temperature", i), 294.);
   }
@@ -393,7 +393,7 @@ TEST(Spg, cracks_open_before_the_rest_flows)
   const Energies last(body);
   double volume = 0.; // corners have too few bonds to strain
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-    if (body.bond_list().n_bonds(i) > 3)
+    if (body.rooms().bonds.n_bonds(i) > 3)
     {
       volume += 1e-9;
       for (int c = 0; c < 6; ++c)
@@ -455,12 +455,13 @@ TEST(SpgBody, cracks_heal_where_they_have_closed)
     deform(lateral, 1.);
   for (const double axial : {0.5, 0.2, 0.08, 0.03, 0.013})
     deform(9., axial);
-  ASSERT_TRUE(body.damage(center).lost_direction);
-  const auto J = [&] { return determinant(body.deformation_gradient(center)); };
+  ASSERT_TRUE(body.rooms().approximation.lost_direction[center]);
+  const auto J = [&]
+  { return determinant(body.rooms().fields.deformation_gradient(center)); };
   const auto expect_open = [&]
   {
     EXPECT_GT(J(), 1.05);
-    EXPECT_TRUE(body.damage(center).lost_direction);
+    EXPECT_TRUE(body.rooms().approximation.lost_direction[center]);
     EXPECT_LT(tension(), 1.);
   };
   for (const double axial : {0.05, 0.1, 0.2})
@@ -475,7 +476,7 @@ TEST(SpgBody, cracks_heal_where_they_have_closed)
   }
   deform(3., 0.2);
   EXPECT_LT(J(), 0.95);
-  EXPECT_FALSE(body.damage(center).lost_direction);
+  EXPECT_FALSE(body.rooms().approximation.lost_direction[center]);
   EXPECT_LT(body.stress(0, center) + body.stress(1, center) +
                 body.stress(2, center),
             0.);

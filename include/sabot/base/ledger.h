@@ -22,7 +22,7 @@ namespace sabot
 struct EnergyLedger
 {
   ExactSum kinetic, internal, stabilization, hourglass, contact, friction,
-      eroded, external, plastic_work, failure, rubble_friction, tie;
+      eroded, external, plastic_work, failure, rubble_friction, tie, conversion;
 
   /**
    * Sum of all parts less what was supplied from outside: constant but for the
@@ -64,7 +64,7 @@ struct EnergyTerm
 };
 
 /** Every term once, in the order of the history's columns. */
-extern const std::array<EnergyTerm, 12> energy_terms;
+extern const std::array<EnergyTerm, 13> energy_terms;
 
 template <typename Function>
 void EnergyLedger::for_each(const Function &f) const

@@ -21,6 +21,8 @@
 namespace sabot
 {
 class VelocityConstraints;
+class CellSource;
+class ParticleSink;
 
 /** A proposal for the stable step and who makes it. The default proposes
     nothing: the largest double. item is a global number, for the log and for
@@ -335,6 +337,8 @@ public:
   virtual const ParticleView *particles() const { return nullptr; }
   virtual const FragmentView *fragments() const { return nullptr; }
   virtual LoadView *loadable() { return nullptr; }
+  virtual CellSource *cell_source() { return nullptr; }
+  virtual ParticleSink *particle_sink() { return nullptr; }
   /** Whether nodes move by their own forces, so that a tie may lead them; not
       those of a rigid body. */
   virtual bool moves_node_by_node() const { return true; }

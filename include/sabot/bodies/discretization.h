@@ -4,6 +4,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/conversion/conversion_criterion.h"
 #include "sabot/geometry/shape.h"
 #include "sabot/geometry/turn.h"
 
@@ -70,6 +71,14 @@ public:
       stands; empty: none. Of the entry "Carve from"; the host loses its
       cells in that place. */
   virtual std::string carved_from(const Parameters &) const { return ""; }
+  /** When cells of the body carved_from() turn into particles of this one;
+      nothing: the zone is what it is from the start. Throws InputError, by the
+      entry. */
+  virtual std::optional<ConversionRequest>
+  conversion(const Parameters &, const std::string & /*path*/) const
+  {
+    return std::nullopt;
+  }
   /** Size of the cells whose mesh a carved zone follows [m]. */
   virtual double cell_size(const Parameters &) const { return 0.; }
   /** A body that takes over the cells of another one has their spacing [m]:

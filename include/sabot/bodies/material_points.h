@@ -127,6 +127,9 @@ public:
       pressure and energies are zero, state variables have the initial values
       of the law, padding included. */
   void allocate(const std::size_t n, const std::size_t stride);
+  /** Room for @p n points, more than there are, rows without padding; new ones
+      as allocate() leaves them. */
+  void extend(const std::size_t n);
   /** Keep the groups of @p per_group consecutive points with the ascending
       numbers @p kept; the new rows, of length @p stride, are filled up with
       copies of the last point. Rows move to the front, which must not be
@@ -183,6 +186,10 @@ public:
   /** One row of the state of all points, [stride()], in the order of
       variables(). */
   const double *state_row(const std::size_t row) const
+  {
+    return &state_data[row * row_length];
+  }
+  double *state_row(const std::size_t row)
   {
     return &state_data[row * row_length];
   }

@@ -41,7 +41,13 @@ public:
                  const Holder by);
   /** Once, after the last prescribe(). Sorts by node, and finds out whether
       any velocity differs from zero: without, there is no work to be done. */
+  /** Of bodies that grow: nodes may come that are held so; its forces are told
+      from the start. */
+  void expect(const Holder by) { is_expected[static_cast<int>(by)] = 1; }
   void finish();
+  /** The same for nodes behind all that are held already, whose impulses
+      stay. */
+  void append();
 
   /** What is held of node @p i after finish(): 1 where a component is free,
       else 0, and the value where it is held [m/s]. Found by bisection. */
@@ -92,8 +98,9 @@ private:
     Holder by = Holder::clamp;
   };
   std::map<std::size_t, std::array<Component, 3>> collected;
-  AlignedVector<Held> held;   // ascending
-  AlignedVector<Vec> impulse; // of each of them [N s]
+  AlignedVector<Held> held;                  // ascending
+  AlignedVector<Vec> impulse;                // of each of them [N s]
+  std::array<int, 3> is_expected{{0, 0, 0}}; // by holder
   bool has_work = false, has_started = false;
   ExactSum done;
 };

@@ -43,6 +43,10 @@ public:
   /** Add forces [N] to owned nodes. @p dt is the step just made [s]; 0 at the
       start, where nothing has moved yet and springs do not act. Collective. */
   virtual void add_forces(const double dt) = 0;
+  /** Between steps, after the bodies' own updates: what it does to bodies
+      themselves. @return whether forces of bodies changed, the same on all
+      ranks. Collective. */
+  virtual bool change_bodies(const unsigned int /*step*/) { return false; }
   /** After an update between steps changed forces of bodies: pass the changes
       on. Collective. */
   virtual void forward_changes() {}

@@ -8,6 +8,7 @@
 #include "sabot/couplings/mirror_images.h"
 #include "sabot/couplings/particle_search.h"
 #include "sabot/couplings/particle_standing.h"
+#include "sabot/couplings/search_age.h"
 
 namespace sabot
 {
@@ -120,7 +121,7 @@ private:
   HaloForces forces;
   double skin = 0.;      // [m], by which candidates may approach
   double allowance = 0.; // [m], of travel until the next search
-  double traveled = 0.;  // [m]
+  SearchAge age;
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
   std::size_t n_deep = 0; // nodes so far inside that nothing holds them
 };

@@ -6,6 +6,7 @@
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/debris.h"
 #include "sabot/couplings/halo_forces.h"
+#include "sabot/couplings/search_age.h"
 
 namespace sabot
 {
@@ -110,7 +111,8 @@ private:
   std::vector<double> softening; // per slot, of the stiffness
   HaloForces forces;
   ContactPoints points; // of the step
-  double skin = 0., traveled = 0.;
+  double skin = 0.;
+  SearchAge age;
   std::size_t n_loose = 0;
 };
 } // namespace sabot

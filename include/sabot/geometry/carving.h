@@ -31,6 +31,12 @@ struct Carving
   /** Whether the particles are nodes of the body's mesh; else the body is a box
       that is meshed around the zone, and the zone has a lattice of its own. */
   bool follows_mesh = false;
+  /** The particles come while the run goes on: the body keeps its cells, and
+     the zone has the nodes of all of them in prospect. */
+  bool finds_itself = false;
+  /** Whether the shape says where particles are from the start of a zone that
+      finds itself. */
+  bool has_start = false;
 };
 
 /** A mesh in two parts. Nodes between them belong to both, at the same place,

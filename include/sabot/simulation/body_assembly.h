@@ -35,6 +35,7 @@ public:
 
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<CarvedZone> zones;
+  std::vector<GrowingZone> growing;
   std::vector<std::string> notes, warnings; // what the meshes are like
 
 private:
@@ -74,6 +75,14 @@ private:
   auto counted(const std::string &path, const Make &make) const;
   /** Its subsection with material, shape and mesh, as BodyRequest. */
   std::unique_ptr<Body> make_body(const std::string &name, const int id);
+  /** Entries of a zone that finds itself that are its host's: faces that are
+      held, and speed. InputError where the file says otherwise. */
+  void take_from_host(const Carving &carving);
+  /** By the bodies as they were built; the host is told. InputError where host
+      and zone do not fit. */
+  GrowingZone record_growing(const Carving &carving);
+  /** Number of a body that has been built. */
+  int number_of(const std::string &name) const;
   /** By the bodies as they were built: numbers, bounds and spacing [m]. */
   CarvedZone record(const Carving &carving) const;
   /** By the entry "Discretization" of the file, FEM where there is none. */

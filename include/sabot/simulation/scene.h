@@ -3,6 +3,7 @@
 
 #include "sabot/base/parameter_file.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/conversion/conversion_criterion.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/geometry/carving.h"
 #include "sabot/geometry/turn.h"
@@ -13,6 +14,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -49,6 +51,17 @@ struct CarvedZone
   Turn turn;                                 // of both
   std::array<double, 3> spacing;             // of the particles [m]
   std::array<double, 3> host_low, host_high; // bounds before carving [m]
+};
+
+struct CouplingContext;
+
+/** A zone whose particles cells of its host turn into while the run goes on. */
+struct GrowingZone
+{
+  int zone, host;                 // bodies
+  std::optional<ZoneShape> start; // where particles are from the start
+  Turn turn;                      // of both
+  ConversionRequest request;      // when cells turn
 };
 
 /**
@@ -124,6 +137,7 @@ public:
   std::vector<std::unique_ptr<SceneOutput>> outputs;
   std::vector<std::unique_ptr<QuantityOfInterest>> quantities;
   std::vector<CarvedZone> zones;
+  std::vector<GrowingZone> growing;
   /** What can hardly be meant; distribute() adds to it. */
   std::vector<std::string> warnings;
   std::vector<std::string> notes; // old names in the file; what meshes are like
@@ -149,6 +163,10 @@ private:
   std::set<std::pair<int, int>> build_couplings();
   /** Of bodies that can fail and are in no self-contact. */
   void warn_of_lone_debris();
+  /** What turns cells of its host into particles of a growing zone. */
+  std::unique_ptr<Coupling>
+  self_finding_zone(const GrowingZone &zone,
+                    const CouplingContext &context) const;
   void build_outputs();
   void build_quantities();
   /** Of "List of <list>"; empty where the entry is. */

@@ -318,6 +318,14 @@ Mat BBar::gradient(const std::size_t point) const
   return lane_of(motion[point / 8].F[point % 8 / n_lanes], point % n_lanes);
 }
 
+double BBar::volume_ratio(const std::size_t e) const
+{
+  double present = 0.;
+  for (int p = 0; p < n_packs; ++p)
+    present += sum_lanes(geometry[e].volume[p] * determinant(motion[e].F[p]));
+  return present / volume[e];
+}
+
 void BBar::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("motion", motion);

@@ -16,7 +16,10 @@ FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
       cells(Registry<Hexahedra>::get("Bodies/" + name + "/Integration",
                                      options.integration)
                 .make(name, options, this->material)),
-      boundary(name, this->mesh, options)
+      boundary(name, this->mesh, options),
+      conversion({*this->material, nodal_state, node_exchange, *cells,
+                  [this]() -> LivingCells & { return *living; },
+                  [this]() { ++surface_version; }})
 {
   outline = outline_of(this->mesh, options.symmetry_boundary_ids);
   prescribed_velocities = &constraints;
@@ -85,10 +88,15 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
 
   boundary.set_up(mesh, part.local, nodal_state.n_owned, constraints);
   cells->set_up(mesh, part.cells, connectivity);
+  if (options.erodes() || conversion.is_on())
+    living = std::make_unique<LivingCells>(
+        nodal_state, *cells, boundary, owned_cell, mesh.boundary_faces.size());
   if (options.erodes())
-    erosion = std::make_unique<FemErosion>(
-        options, *material, nodal_state, *cells, boundary, owned_cell,
-        mesh.boundary_faces.size(), communicator);
+    erosion =
+        std::make_unique<FemErosion>(options, *material, nodal_state, *cells,
+                                     *living, owned_cell, communicator);
+  if (conversion.is_on())
+    conversion.set_up();
   mesh = HexMesh();
   if (options.conducts_heat)
   {
@@ -125,7 +133,7 @@ bool FemBody::update_topology(const unsigned int, const double time)
 
 const std::vector<char> *FemBody::free_nodes() const
 {
-  return erosion ? &erosion->free_nodes() : nullptr;
+  return erosion ? &living->bare_nodes() : nullptr;
 }
 
 bool FemBody::has_state(const std::string &variable) const
@@ -171,6 +179,7 @@ void FemBody::add_energies(EnergyLedger &ledger) const
         .add(0.5 * nodal_state.inertia[i] *
              norm_square(nodal_state.velocity[i]));
   ledger.external.add(constraints.work());
+  conversion.add_energies(ledger);
   if (erosion)
     erosion->add_energies(ledger);
   for (std::size_t e = 0; e < cells->size(); ++e)
@@ -324,10 +333,17 @@ void FemBody::visit_state(StateVisitor &visitor)
   visitor.visit_array("velocity", nodal_state.velocity);
   visitor.visit_array("force", nodal_state.force);
   visitor.visit_array("inertia", nodal_state.inertia);
-  if (erosion)
+  if (living)
   {
-    erosion->visit_state(visitor);
+    living->visit_state(visitor);
     visitor.visit_value("surface version", surface_version);
+  }
+  if (erosion)
+    erosion->visit_state(visitor);
+  if (conversion.is_on())
+  {
+    visitor.visit_array("lumped mass", nodal_state.lumped_mass);
+    conversion.visit_state(visitor);
   }
   cells->visit_state(visitor);
   if (heat)
@@ -346,8 +362,8 @@ ContactSurface FemBody::contact_surface() const
 
 const std::vector<std::uint32_t> &FemBody::cell_of_faces() const
 {
-  if (erosion) // faces and cells come and go
-    known_cell_of_faces = erosion->cells_of_faces();
+  if (living) // faces and cells come and go
+    known_cell_of_faces = living->cells_of_faces();
   else if (known_cell_of_faces.size() != boundary.faces.size())
     known_cell_of_faces = boundary.find_cells(*cells);
   return known_cell_of_faces;

@@ -210,6 +210,29 @@ std::vector<double> Hexahedra::cell_state(const std::string &name) const
   return values;
 }
 
+Mat Hexahedra::mean_gradient(const std::size_t e) const
+{
+  Mat sum = Mat::zero();
+  for (std::size_t q = e * n_points; q < (e + 1) * n_points; ++q)
+  {
+    const Mat F = gradient(q);
+    for (int d = 0; d < 3; ++d)
+      sum.row[d] += F.row[d] / double(n_points);
+  }
+  return sum;
+}
+
+void Hexahedra::mean_states(const std::size_t e, double *const values) const
+{
+  for (std::size_t r = 0; r < points.n_rows(); ++r)
+  {
+    double sum = 0.;
+    for (std::size_t q = e * n_points; q < (e + 1) * n_points; ++q)
+      sum += points.state_row(r)[q];
+    values[r] = sum / n_points;
+  }
+}
+
 void Hexahedra::shift_state(const std::string &name,
                             const std::vector<double> &change)
 {

@@ -199,8 +199,9 @@ void BondList::connect(const Rows &rows,
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     // Both the old and the new row ascend.
-    std::size_t old = n_owned > 0 ? begin(i) : 0;
-    const std::size_t last = n_owned > 0 ? end(i) : 0;
+    const bool is_old = i < n_owned; // bodies may grow
+    std::size_t old = is_old ? begin(i) : 0;
+    const std::size_t last = is_old ? end(i) : 0;
     for (const GlobalIndex j : rows[i])
     {
       while (old < last && id[neighbor[old]] < j)

@@ -10,9 +10,24 @@ void ParticleFields::allocate(const std::vector<double> &volume,
   reference_volume = kernel_reference_volume = volume;
   incremental_deformation_gradient.assign(n, Mat::identity());
   kernel_reference_deformation_gradient.assign(n, Mat::identity());
+  this->stiffens = stiffens;
   if (stiffens)
     stiffening.assign(n, 1.);
   own_force.assign(n, Vec{});
+}
+
+void ParticleFields::extend(const std::size_t n_owned)
+{
+  const std::size_t before = reference_volume.size();
+  for (const std::size_t n : {before, n_owned})
+    resize(n);
+  reference_volume.resize(n_owned, 0.);
+  kernel_reference_volume.resize(n_owned, 0.);
+  incremental_deformation_gradient.resize(n_owned, Mat::identity());
+  kernel_reference_deformation_gradient.resize(n_owned, Mat::identity());
+  if (stiffens)
+    stiffening.resize(n_owned, 1.);
+  own_force.resize(n_owned, Vec{});
 }
 
 void ParticleFields::resize(const std::size_t n_local)

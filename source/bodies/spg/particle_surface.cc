@@ -39,15 +39,27 @@ void ParticleSurface::distribute(const ParticleCloud &cloud,
                                  const std::uint32_t clamped_faces,
                                  VelocityConstraints &constraints)
 {
-  const AlignedVector<Vec> normals = outward_normals(cloud, symmetry_faces);
-  on_face.resize(owned.size());
-  outward.resize(owned.size());
-  for (std::size_t i = 0; i < owned.size(); ++i)
+  extend(cloud, outward_normals(cloud, symmetry_faces), owned, clamped_faces,
+         constraints);
+  keep_shares(cloud, owned);
+}
+
+void ParticleSurface::extend(const ParticleCloud &cloud,
+                             const AlignedVector<Vec> &normals,
+                             const std::vector<GlobalIndex> &hosts,
+                             const std::uint32_t clamped_faces,
+                             VelocityConstraints &constraints)
+{
+  const std::size_t before = on_face.size();
+  on_face.resize(before + hosts.size());
+  outward.resize(on_face.size());
+  for (std::size_t i = before; i < on_face.size(); ++i)
   {
-    on_face[i] = cloud.on_face[owned[i]];
+    const GlobalIndex node = hosts[i - before];
+    on_face[i] = cloud.on_face[node];
     const unsigned int planes = symmetry_axes(i);
     // Its mirror image has the other half of a plane's facets.
-    Vec normal = normals[owned[i]];
+    Vec normal = normals[node];
     const double cosine = norm(normal);
     for (int d = 0; d < 3; ++d)
       if (planes >> d & 1)
@@ -61,8 +73,7 @@ void ParticleSurface::distribute(const ParticleCloud &cloud,
       for (int d = 0; d < 3; ++d)
         constraints.prescribe(i, d, 0., VelocityConstraints::Holder::clamp);
   }
-  constraints.finish();
-  keep_shares(cloud, owned);
+  constraints.append();
 }
 
 void ParticleSurface::keep_shares(const ParticleCloud &cloud,

@@ -15,9 +15,9 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                  std::shared_ptr<const Material> material,
                  const SpgOptions &options)
     : Body(name, id), cloud(std::move(cloud)), options(options),
-      n_global(this->cloud.position.size()), points(std::move(material)),
-      kernel(options, this->cloud), approximation(options),
-      surface(this->cloud, options, "Bodies/" + name),
+      n_global(options.grows ? 0 : this->cloud.position.size()),
+      points(std::move(material)), kernel(options, this->cloud),
+      approximation(options), surface(this->cloud, options, "Bodies/" + name),
       stabilization(options.stabilization()), failure(options),
       residual_strength(options.residual_strength()), parts{this->name,
                                                             this->options,
@@ -36,7 +36,14 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                                                             watch},
       views(parts, surface, communicator)
 {
-  outline = outline_of(this->cloud, options.symmetry_faces);
+  if (options.grows)
+    intake = std::make_unique<ParticleIntake>(ParticleIntake::Rooms{
+        this->options, this->cloud, nodal_state, bonds, fields, points, kernel,
+        approximation, surface, *stabilization, failure, *residual_strength,
+        stable, constraints, rank_of, node_owner, n_global, communicator,
+        [this](const unsigned int step) { update_kernel_and_forces(step); }});
+  else
+    outline = outline_of(this->cloud, options.symmetry_faces);
   prescribed_velocities = &constraints;
   options.failure_criterion->check(points, "Bodies/" + name);
   if (options.conducts_heat && !(points.law().conductivity() > 0.))
@@ -78,6 +85,8 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   for (std::size_t i = 0; i < owner.size(); ++i)
     if (owner[i] == rank)
       ids.push_back(i);
+  if (intake)
+    ids.clear();
   const std::size_t n = ids.size();
   const AlignedVector<Mat> kernels = kernel.initial_kernels(cloud);
   BondList::Rows rows;
@@ -91,17 +100,17 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     throw InputError("Bodies/" + name, e.what());
   }
   const Material &law = points.law();
-  std::vector<double> volume(n), capacity(n);
+  std::vector<double> volume(n);
   for (std::size_t i = 0; i < n; ++i)
-  {
     volume[i] = cloud.volume[ids[i]];
-    capacity[i] = volume[i] * (law.density() * law.specific_heat());
-  }
   start_nodes(cloud.position, ids, volume, law.density(),
               options.initial_velocity, nodal_state);
   surface.distribute(cloud, ids, options.clamped_faces, constraints);
   kernel.distribute(kernels, ids);
-  cloud = ParticleCloud();
+  if (intake)
+    intake->set_up();
+  else
+    cloud = ParticleCloud();
   fields.allocate(volume, law.stiffens());
   points.allocate(n, n);
   approximation.allocate(n);
@@ -119,19 +128,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   stable.estimate(parts, *stabilization);
   if (n_global > 1)
     stable.calibrate(parts, *stabilization, 0, true, communicator);
-  const ParticleConduction::Cloud conducting{bonds,
-                                             node_exchange,
-                                             fields.kernel_reference_position,
-                                             approximation.moment_inverse,
-                                             fields.kernel_reference_volume,
-                                             approximation.lost_direction};
-  if (options.conducts_heat)
-    heat = std::make_unique<ParticleConduction>(
-        law.conductivity(), conducting, std::move(capacity), communicator);
-  if (options.nonlocal_length && options.can_fail())
-    failure.average_by(std::make_unique<ParticleConduction>(
-        *options.nonlocal_length * *options.nonlocal_length, conducting,
-        std::move(volume), communicator));
+  heat.set_up(parts, failure, communicator);
 }
 
 void SpgBody::renumber(const BondList::Rows &rows)
@@ -169,7 +166,9 @@ void SpgBody::update_ghosts()
 
 void SpgBody::compute_forces(const double /*time*/, const double dt)
 {
+  const std::size_t n = watch.n_updates;
   watch = StepWatch();
+  watch.n_updates = n;
   evaluate_forces(dt);
   // Only now: the other ranks wait for the exchanges of the loop.
   if (!watch.problem.empty())
@@ -217,11 +216,7 @@ bool SpgBody::update_topology(const unsigned int step, const double time)
     update_kernel_and_forces(step);
   }
   stabilization->after_step(parts, step);
-  if (heat && time >= last_conduction + options.conduction_interval)
-  {
-    heat->advance(time - last_conduction, points.state("temperature"));
-    last_conduction = time;
-  }
+  heat.advance(time, options.conduction_interval, points);
   return due > 0.;
 }
 
@@ -260,8 +255,8 @@ void SpgBody::update_kernel(const unsigned int step)
   for (std::size_t i = 0; i < n; ++i)
     held[i] = stabilization->held_energy(parts, i);
   const std::vector<std::uint32_t> failed_before = failure.n_failed;
-  const std::vector<char> lost_before = approximation.lost_direction,
-                          failed_already = failure.is_failed;
+  std::vector<char> lost_before = approximation.lost_direction;
+  const std::vector<char> failed_already = failure.is_failed;
   if (failure.remove(nodal_state, bonds, node_exchange))
     stabilization->carry_bonds(bonds);
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
@@ -275,6 +270,13 @@ void SpgBody::update_kernel(const unsigned int step)
     renumber(renew_crumbled_neighbors(nodal_state, bonds, failure, kernel,
                                       communicator));
     node_exchange.update(fields.kernel.data());
+  }
+  if (intake && intake->is_waiting())
+  {
+    renumber(intake->grow());
+    node_exchange.update(fields.kernel.data());
+    heat.set_up(parts, failure, communicator);
+    lost_before.resize(nodal_state.n_owned, 0);
   }
 
   fields.kernel_reference_position = nodal_state.position;
@@ -290,8 +292,11 @@ void SpgBody::update_kernel(const unsigned int step)
       failure.loss[i] += held[i] - stabilization->held_energy(parts, i);
   }
   stable.estimate(parts, *stabilization);
-  ++n_updates;
-  if (n_global > 1 && stable.calibration_is_due(parts, step, communicator))
-    stable.calibrate(parts, *stabilization, step, false, communicator);
+  ++watch.n_updates;
+  const bool has_grown = intake && intake->has_grown_much();
+  if (n_global > 1 &&
+      (has_grown || stable.calibration_is_due(parts, step, communicator)))
+    stable.calibrate(parts, *stabilization, step, !stable.is_calibrated(),
+                     communicator);
 }
 } // namespace sabot

@@ -80,6 +80,18 @@ void check_spread(const ParticleCloud &cloud, const std::string &path)
                          "each piece, or look for a misplaced node");
 }
 
+constexpr const char *standard_criteria =
+    "plastic strain, stable step, shape, failed neighbors";
+
+/** " name: when; name: when". */
+std::string described_criteria()
+{
+  std::string text;
+  for (const auto &entry : Registry<ConversionCriterion>::entries())
+    text += (text.empty() ? " " : "; ") + entry.name + ": " + entry.description;
+  return text;
+}
+
 class Particles : public Discretization
 {
 public:
@@ -102,6 +114,20 @@ public:
                       "its own, around which the body is meshed; else the "
                       "nodes of the cells become the particles. Add a tie to "
                       "join the two.");
+    prm.declare_knob("Zone", "fixed", one_of("fixed|self-finding"),
+                     "With Carve from. fixed: the particles take the place of "
+                     "the cells from the start. self-finding: cells turn into "
+                     "particles at their nodes while the run goes on, by "
+                     "\"Converts by\"; box or cylinder, where given by Size or "
+                     "Radius, are of particles from the start. No tie is "
+                     "needed.");
+    prm.declare_knob("Converts by", standard_criteria, name_list(),
+                     "What turns a cell into particles, any of these:" +
+                         described_criteria());
+    prm.declare_knob("Conversion interval", "10", integer(1),
+                     "Steps between looks at the cells of the host of a "
+                     "self-finding zone.");
+    Registry<ConversionCriterion>::declare_entries(prm, "");
     prm.declare_entry("Clamped faces", "", name_list(),
                       "Faces held fixed, among " + faces +
                           "; in a zone with the cells of another body among "
@@ -146,11 +172,33 @@ public:
     options.initial_velocity = request.initial_velocity;
     options.symmetry_faces = face_bits(request, "Symmetry faces", faces);
     options.clamped_faces = face_bits(request, "Clamped faces", faces);
+    options.grows = request.prm.get("Zone") != "fixed";
+    if (options.grows)
+      cloud.spacing.fill(get_quantities(request.prm, "Nodal spacing")[0]);
     auto body =
         std::make_unique<SpgBody>(request.name, request.id, std::move(cloud),
                                   std::move(request.material), options);
     body->find_faces = face_finder(faces);
     return body;
+  }
+
+  std::optional<ConversionRequest>
+  conversion(const Parameters &prm, const std::string &path) const override
+  {
+    if (prm.get("Zone") == "fixed")
+      return std::nullopt;
+    if (prm.get("Carve from").empty())
+      throw InputError(
+          path + "/Zone",
+          "is self-finding, which needs a host: set \"Carve from\" "
+          "to a body of finite elements");
+    ConversionRequest request;
+    request.interval = prm.get_integer("Conversion interval");
+    for (const std::string &name : split_names(prm.get("Converts by")))
+      request.criteria.push_back(
+          Registry<ConversionCriterion>::get(path + "/Converts by", name)
+              .make(prm, path));
+    return request;
   }
 
   std::string carved_from(const Parameters &prm) const override

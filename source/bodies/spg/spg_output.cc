@@ -206,13 +206,13 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
 void SpgBody::visit_bonds(StateVisitor &visitor)
 {
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian ||
-      failure.keeps_crumbled())
+      failure.keeps_crumbled() || intake)
   {
     // The list itself is state.
     const std::size_t n = nodal_state.n_owned;
     std::vector<std::uint32_t> lengths(n);
     std::vector<GlobalIndex> neighbors;
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n && !visitor.is_restoring(); ++i)
     {
       lengths[i] = bonds.n_bonds(i);
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
@@ -244,6 +244,8 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
 
 void SpgBody::visit_state(StateVisitor &visitor)
 {
+  if (intake)
+    intake->visit_state(visitor);
   visit_bonds(visitor);
   visitor.visit_array("position", nodal_state.position);
   visitor.visit_array("velocity", nodal_state.velocity);
@@ -259,8 +261,9 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visitor.visit_value("stable step", watch.stable_step);
   visitor.visit_value("stable step item", watch.stable_step_item);
   visitor.visit_value("largest change", watch.largest_change);
-  visitor.visit_value("kernel updates", n_updates);
-  if (heat)
-    visitor.visit_value("last conduction", last_conduction);
+  visitor.visit_value("kernel updates", watch.n_updates);
+  if (intake && visitor.is_restoring())
+    heat.set_up(parts, failure, communicator);
+  heat.visit_state(visitor);
 }
 } // namespace sabot

@@ -35,7 +35,10 @@ public:
     if (pieces != nullptr)
     {
       label = pieces->piece_labels();
-      main = pieces->connected_pieces().front().label;
+      const std::vector<Fragment> all = pieces->connected_pieces();
+      if (all.empty()) // a zone that has not found anything yet
+        return 0.;
+      main = all.front().label;
     }
     const NodalState &nodes = along.body.nodes();
     double least = std::numeric_limits<double>::max();

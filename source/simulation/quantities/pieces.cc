@@ -64,7 +64,11 @@ public:
   {
     Fragment piece;
     if (const FragmentView *const view = direction.body.fragments())
-      piece = view->connected_pieces().front();
+    {
+      const std::vector<Fragment> all = view->connected_pieces();
+      if (!all.empty()) // a zone may not have found anything yet
+        piece = all.front();
+    }
     else
       piece.velocity = direction.body.measure().velocity;
     return along(direction, piece);

@@ -44,6 +44,8 @@ public:
       q. */
   void cell_forces(const NodalState &nodes, const std::size_t cell,
                    Vec force[8]) const override;
+  /** Of the points' present volumes, which share their mean ratio. */
+  double volume_ratio(const std::size_t cell) const override;
   /** Compacts geometry and motion with the points. */
   void keep(const std::vector<std::size_t> &kept) override;
   void visit_state(StateVisitor &visitor) override;

@@ -5,9 +5,11 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/fem/fem_boundary.h"
+#include "sabot/bodies/fem/fem_conversion.h"
 #include "sabot/bodies/fem/fem_erosion.h"
 #include "sabot/bodies/fem/heat_conduction.h"
 #include "sabot/bodies/fem/hexahedra.h"
+#include "sabot/bodies/fem/living_cells.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/hex_mesh.h"
 #include "sabot/geometry/local_part.h"
@@ -21,7 +23,8 @@ namespace sabot
 /**
  * A body of hexahedra on this rank: its nodes, the life of a step and reports.
  * What its cells do is up to Hexahedra, what can be touched to FemBoundary,
- * which cells go to FemErosion, temperatures between cells to HeatConduction.
+ * which cells go to FemErosion and FemConversion, temperatures between cells to
+ * HeatConduction.
  *
  * A step: accelerations by M a = f_external - f_internal with lumped masses (an
  * eighth of the mass of every cell around), where the internal forces are
@@ -110,6 +113,7 @@ public:
   // The view of its faces.
   const FaceView *faces() const override { return this; }
   LoadView *loadable() override { return &boundary; }
+  CellSource *cell_source() override { return &conversion; }
   /** Local nodes in VTK order of the cell behind each face of
       contact_surface(); zeros where this rank does not have it. */
   std::vector<std::array<std::size_t, 8>> cells_behind_faces() const override;
@@ -159,7 +163,7 @@ private:
   /** Cells behind the boundary faces, FemBoundary::no_cell where another rank's
       nodes have it. Kept once found, unless cells erode. */
   const std::vector<std::uint32_t> &cell_of_faces() const;
-  /** Which owned nodes lost all their cells; null where none can. [n_owned].
+  /** Which owned nodes lost all their cells; null where none erodes. [n_owned].
       Such nodes keep mass and momentum; they count as eroded. */
   const std::vector<char> *free_nodes() const;
 
@@ -174,8 +178,10 @@ private:
   VelocityConstraints constraints;
   FemBoundary boundary;
   mutable std::vector<std::uint32_t> known_cell_of_faces;
-  unsigned int surface_version = 0;     // the same on every rank
-  std::unique_ptr<FemErosion> erosion;  // only where cells may erode
+  unsigned int surface_version = 0;    // the same on every rank
+  std::unique_ptr<LivingCells> living; // only where cells may go
+  std::unique_ptr<FemErosion> erosion; // only where cells may erode
+  FemConversion conversion;
   std::unique_ptr<HeatConduction> heat; // only where asked for
   double last_conduction = 0.;          // [s]
 };

@@ -113,6 +113,19 @@ public:
   /** Mean of a scalar state variable over the points of each cell; empty when
       the material does not have it. */
   std::vector<double> cell_state(const std::string &name) const;
+  /** For what a cell hands over when it goes: its volume over V_0 as the law
+      sees it, and means over its points of F, of the viscous pressure [Pa] and
+      of all rows of the state. */
+  virtual double volume_ratio(const std::size_t e) const
+  {
+    return determinant(gradient(e * n_points));
+  }
+  Mat mean_gradient(const std::size_t e) const;
+  double viscous_pressure(const std::size_t e) const
+  {
+    return sum_points(points.viscous_pressure, e) / n_points;
+  }
+  void mean_states(const std::size_t e, double *values) const;
   /** Present flow stress of some cells [Pa], the mean of their points. By
       FlowStressProbe at the points' own pressure, volume ratio and state;
       1e300 where the law never yields. */
@@ -127,9 +140,9 @@ public:
       global number of the cell; of all cells here, those of other ranks'
       nodes included. */
   StableStep smallest_step;
-  /** Step of each cell [size()], empty unless erosion by the step is asked
-      for. */
-  std::vector<double> cell_step; // [s], kept where erosion asks for it
+  /** Step of each cell [size()] [s], empty unless erosion or conversion by
+      the step is asked for. */
+  std::vector<double> cell_step;
   /** Local numbers, perhaps repeated, of cells that the option erode
       condemns; FemErosion empties it. */
   std::vector<std::size_t> inverting; // cells seen by avoid_inversion()

@@ -55,6 +55,9 @@ struct ParticleFields
       = 1, V_ref = V_0, no stiffening. Kernels come later, by
       LagrangianKernel::start(). */
   void allocate(const std::vector<double> &volume, const bool stiffens);
+  /** Room for @p n_owned particles, more than there are; ghosts are dropped.
+      New ones are undeformed, without volume. */
+  void extend(const std::size_t n_owned);
   /** Room for ghosts: @p n_local particles, owned ones included. New entries
       of stress are zero, of kernels and positions at the last update the
       caller's to fill. */
@@ -70,6 +73,9 @@ struct ParticleFields
   /** Owned and ghost entries, as kernels of ghosts are those of the last
       update. */
   void visit_state(StateVisitor &visitor);
+
+private:
+  bool stiffens = false;
 };
 } // namespace sabot
 

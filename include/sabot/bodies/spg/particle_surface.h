@@ -46,6 +46,13 @@ public:
                   const std::uint32_t clamped_faces,
                   VelocityConstraints &constraints);
 
+  /** More particles, of the nodes @p hosts of the cloud, behind those that are
+      there. @p normals: outward_normals() of the cloud. */
+  void extend(const ParticleCloud &cloud, const AlignedVector<Vec> &normals,
+              const std::vector<GlobalIndex> &hosts,
+              const std::uint32_t clamped_faces,
+              VelocityConstraints &constraints);
+
   void keep_faces(const std::vector<unsigned int> &ids) override
   {
     kept_faces.insert(ids.begin(), ids.end());

@@ -9,8 +9,9 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
-#include "sabot/bodies/spg/particle_conduction.h"
 #include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/particle_heat.h"
+#include "sabot/bodies/spg/particle_intake.h"
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/spg/spg_parts.h"
@@ -57,9 +58,12 @@ public:
   SpgBody(const std::string &name, const int id, ParticleCloud cloud,
           std::shared_ptr<const Material> material, const SpgOptions &options);
 
+  /** None of a body that grows: its particles are where the host's nodes are.
+   */
   const std::vector<std::array<double, 3>> &partition_points() const override
   {
-    return cloud.position;
+    static const std::vector<std::array<double, 3>> none;
+    return options.grows ? none : cloud.position;
   }
   /** Cost of a particle over that of a node of finite elements. */
   double partition_weight() const override { return 4.; }
@@ -118,9 +122,15 @@ public:
 
   /** All owned particles as nodes, no faces; see ParticleSurface. */
   ContactSurface contact_surface() const override;
+  /** Goes up whenever particles have come. */
+  unsigned int contact_surface_version() const override
+  {
+    return intake ? intake->version() : 0;
+  }
   const ParticleView *particles() const override { return &views; }
   const FragmentView *fragments() const override { return &views; }
   LoadView *loadable() override { return &surface; }
+  ParticleSink *particle_sink() override { return intake.get(); }
   std::vector<double>
   flow_stress(const std::vector<std::size_t> &some_nodes) const override;
 
@@ -133,14 +143,9 @@ public:
       the last kernel update; from below. Collective. */
   double largest_frequency(const unsigned int n);
 
-  // For tests and verification problems: owned particles, components of
-  // symmetric tensors in the order of n_symmetric.
-  const BondList &bond_list() const { return bonds; }
-  /** Total F = F_inc F_ref, from the undeformed state. */
-  Mat deformation_gradient(const std::size_t i) const
-  {
-    return fields.deformation_gradient(i);
-  }
+  // For tests and verification problems: the rooms of owned particles,
+  // components of symmetric tensors in the order of n_symmetric.
+  const SpgParts &rooms() const { return parts; }
   /** Cauchy stress without bulk viscosity and without the part of a form
       [Pa]. */
   double stress(const std::size_t component, const std::size_t i) const
@@ -155,12 +160,6 @@ public:
   double state(const std::string &name, const std::size_t i) const
   {
     return points.state(name)[i];
-  }
-  std::size_t n_kernel_updates() const { return n_updates; }
-  /** What a rule for failed metal is told of an owned particle. */
-  ParticleDamage damage(const std::size_t i) const
-  {
-    return {bool(approximation.lost_direction[i]), failure.has_crumbled(i)};
   }
 
 protected:
@@ -198,10 +197,10 @@ private:
   /** Restored rows lead to new ghosts. Collective. */
   void visit_bonds(StateVisitor &visitor);
 
-  ParticleCloud cloud; // positions and volumes released after distribute()
+  ParticleCloud cloud; // released after distribute(), unless the body grows
   const SpgOptions options;
   MPI_Comm communicator = MPI_COMM_SELF;
-  const GlobalIndex n_global;
+  GlobalIndex n_global;
   std::vector<int> rank_of; // of every particle, for new neighbors
   GhostExchange node_exchange;
   BondList bonds;
@@ -217,11 +216,10 @@ private:
   SpgStableStep stable;
   StepWork work;
   StepWatch watch;
-  std::size_t n_updates = 0;                // of the kernel
-  std::unique_ptr<ParticleConduction> heat; // only where asked for
-  double last_conduction = 0.;              // [s]
-  SpgParts parts;                           // of the above
+  ParticleHeat heat;
+  SpgParts parts; // of the above
   SpgViews views;
+  std::unique_ptr<ParticleIntake> intake; // only of bodies that grow
 };
 } // namespace sabot
 

@@ -87,6 +87,9 @@ struct SpgOptions
   bool conducts_heat = false;
   double conduction_interval = 1e-6;                    // [s]
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
+  /** Whether the body starts without particles and takes those that cells of
+      its host turn into. */
+  bool grows = false;
   // Bits as in ParticleCloud::on_face
   std::uint32_t symmetry_faces = 0, clamped_faces = 0;
 

@@ -64,8 +64,9 @@ struct StepWatch
   double stable_step = std::numeric_limits<double>::max(); // [s]
   GlobalIndex stable_step_item = -1;                       // whose it is
   double largest_change =
-      1.;              // largest stretch of F_inc or its inverse, squared
-  std::string problem; // the first; empty: none
+      1.;                    // largest stretch of F_inc or its inverse, squared
+  std::string problem;       // the first; empty: none
+  std::size_t n_updates = 0; // of the kernel so far
 
   /** Before a step; the stable step and who limits it stay. */
   void restart()

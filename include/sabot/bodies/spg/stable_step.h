@@ -35,6 +35,13 @@ class SpgStableStep
 {
 public:
   void allocate(const std::size_t n_owned) { step.resize(n_owned); }
+  /** Room for more particles; their bounds come with the next estimate(), and
+      the next calibration counts as the first. */
+  void extend(const std::size_t n_owned)
+  {
+    step.resize(n_owned);
+    initial_factor = std::numeric_limits<double>::max();
+  }
 
   /** Bound of each owned particle, with the present factor. Collective.
       2/sqrt(row sum/m) [s]; a particle without any stiffness gets two
@@ -55,6 +62,11 @@ public:
       that of the last calibration. */
   bool calibration_is_due(const SpgParts &body, const std::size_t step_number,
                           MPI_Comm communicator) const;
+
+  bool is_calibrated() const
+  {
+    return initial_factor < std::numeric_limits<double>::max();
+  }
 
   /** Stable steps of owned particles [s], before what the state adds. */
   const double *data() const { return step.data(); }

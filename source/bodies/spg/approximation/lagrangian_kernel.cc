@@ -50,6 +50,26 @@ void LagrangianKernel::distribute(const AlignedVector<Mat> &kernels,
       initial.push_back(kernels[i]);
 }
 
+AlignedVector<Mat>
+LagrangianKernel::initial_kernels_of(const ParticleCloud &cloud,
+                                     const std::vector<GlobalIndex> &some) const
+{
+  AlignedVector<Mat> kernels;
+  for (const GlobalIndex i : some)
+    kernels.push_back(normalized_support * cloud.shape[i]);
+  return kernels;
+}
+
+void LagrangianKernel::extend(const AlignedVector<Mat> &kernels)
+{
+  initial.insert(initial.end(), kernels.begin(), kernels.end());
+}
+
+Mat LagrangianKernel::carried_kernel(const std::size_t i, const Mat &F) const
+{
+  return clamp_kernel(F * initial[i], initial[i], least_stretch, most_stretch);
+}
+
 void LagrangianKernel::start(ParticleFields &fields,
                              const GhostExchange &exchange) const
 {

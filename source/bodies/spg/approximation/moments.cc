@@ -6,6 +6,7 @@
 #include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/principal.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace sabot
@@ -21,7 +22,7 @@ constexpr std::size_t least_bonds = 4;
 
 ParticleApproximation::ParticleApproximation(const SpgOptions &options)
     : functions(options.approximation), stores(options.stores_gradients()),
-      has_tensor_kernel(options.has_tensor_kernel())
+      has_tensor_kernel(options.has_tensor_kernel()), grows(options.grows)
 {
 }
 
@@ -30,6 +31,13 @@ void ParticleApproximation::allocate(const std::size_t n_owned)
   moment_inverse.resize(n_owned);
   lost_direction.resize(n_owned);
   spread.resize(n_owned);
+}
+
+void ParticleApproximation::extend(const std::size_t n_owned)
+{
+  allocate(n_owned);
+  intact_eigenvalue.resize(n_owned, 0.);
+  intact_spread.resize(n_owned, 0.);
 }
 
 void ParticleApproximation::update(BondList &bonds,
@@ -80,10 +88,11 @@ void ParticleApproximation::find_moments(BondList &bonds,
       add_outer(M, w * xi, xi);
     }
     spread[i] = sum;
-    if (intact)
+    if (intact || (!has_grown.empty() && has_grown[i]))
     {
-      intact_eigenvalue[i] = middle_eigenvalue(M);
-      intact_spread[i] = sum;
+      intact_eigenvalue[i] =
+          std::max(intact_eigenvalue[i], middle_eigenvalue(M));
+      intact_spread[i] = std::max(intact_spread[i], sum);
     }
     int n_damped = 3;
     const Mat inverse_moment =
@@ -97,6 +106,7 @@ void ParticleApproximation::find_moments(BondList &bonds,
                                          fields.kernel_reference_volume[i] >
                                              fields.reference_volume[i]);
   }
+  has_grown.clear();
 }
 
 void ParticleApproximation::visit_bonds(StateVisitor &visitor,
@@ -115,6 +125,11 @@ void ParticleApproximation::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("moment inverse", moment_inverse);
   visitor.visit_array("weak", lost_direction);
+  if (grows)
+  {
+    visitor.visit_array("intact eigenvalue", intact_eigenvalue);
+    visitor.visit_array("intact spread", intact_spread);
+  }
   visitor.visit_value("fallbacks", n_fallback);
 }
 } // namespace sabot

@@ -36,6 +36,19 @@ void BondFailure::allocate(const std::size_t n_owned,
     failed_pairs.resize(n_owned);
 }
 
+void BondFailure::extend(const std::size_t n, const ResidualStrength &rule)
+{
+  crumbled.resize(n_failed.size());
+  n_failed.resize(n, 0);
+  loss.resize(n, 0.);
+  is_failed.resize(n, 0);
+  crumbled.resize(n, 0);
+  if (rule.has_friction())
+    friction_work.resize(n, 0.);
+  if (remembers_pairs)
+    failed_pairs.resize(n);
+}
+
 BondFailure::~BondFailure() = default;
 
 void BondFailure::average_by(std::unique_ptr<ParticleConduction> averaging)
@@ -104,6 +117,9 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
 {
   if (!criterion->can_be_met())
     return false;
+  // Updates without a look before them find no marks.
+  is_marked.resize(bonds.capacity(), 0);
+  crumbles.resize(nodes.n_owned, 0);
   // A bond fails once, whether it goes or stays without cohesion.
   const std::vector<char> before = crumbled;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
@@ -119,7 +135,10 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
       if (is_marked[b] && remembers_pairs)
         failed_pairs[i].push_back(nodes.global_id[j]);
     }
-  return bonds.remove(is_marked);
+  const bool has_changed = bonds.remove(is_marked);
+  is_marked.clear();
+  crumbles.clear();
+  return has_changed;
 }
 
 void BondFailure::judge(const std::vector<char> &lost_direction,

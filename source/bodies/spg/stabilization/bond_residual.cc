@@ -31,6 +31,12 @@ public:
     stiffness.resize(done.size());
     factor.assign(done.size(), 1.);
   }
+  void extend(const std::size_t n) override
+  {
+    Stabilization::extend(n);
+    stiffness.resize(n);
+    factor.resize(n, 1.);
+  }
   void carry_bonds(const BondList &bonds) override { bonds.carry(residual); }
   void renew_ghosts(const SpgParts &body) override
   {

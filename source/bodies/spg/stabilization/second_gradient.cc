@@ -42,6 +42,12 @@ public:
     K = body.points.law().bulk_modulus();
     G = body.points.law().shear_modulus();
   }
+  void extend(const std::size_t n) override
+  {
+    Stabilization::extend(n);
+    higher_gradient.resize(3 * n, Mat::zero());
+    stress.resize(3 * n, Mat::zero());
+  }
   void renew_ghosts(const SpgParts &body) override
   {
     generalized_stress.resize(body.nodes.size());

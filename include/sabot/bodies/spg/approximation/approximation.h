@@ -40,6 +40,11 @@ public:
   explicit ParticleApproximation(const SpgOptions &options);
 
   void allocate(const std::size_t n_owned);
+  /** Of bodies that grow: room for more particles, and for which owned ones the
+      next update() says what intact is, as their neighborhoods have grown; what
+      it was before is the least. */
+  void extend(const std::size_t n_owned);
+  void renew_intact(const std::vector<char> &grown) { has_grown = grown; }
   /** Weights of bonds, moments, lost directions, and where they are stored
       gradients, for the kernels and positions in @p fields. The first call
       defines what intact is. @p second_derivatives: where A grad grad Psi_J
@@ -98,7 +103,8 @@ private:
                            AlignedVector<Mat> *second_derivatives);
 
   const SpgOptions::Approximation functions;
-  const bool stores, has_tensor_kernel;
+  const bool stores, has_tensor_kernel, grows;
+  std::vector<char> has_grown;           // owned, until the next update()
   std::vector<double> intact_eigenvalue; // middle one of the intact moment
   std::vector<double> shape_value, own_shape_value; // for masses, then empty
   bool has_masses = false; // set_convex_masses() has been

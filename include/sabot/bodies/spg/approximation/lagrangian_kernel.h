@@ -32,6 +32,14 @@ public:
   /** Keep those of the owned particles, unless one does for all. */
   void distribute(const AlignedVector<Mat> &kernels,
                   const std::vector<GlobalIndex> &owned);
+  /** Those of some of the cloud's particles; and more owned ones with these,
+      of bodies that grow. */
+  AlignedVector<Mat>
+  initial_kernels_of(const ParticleCloud &cloud,
+                     const std::vector<GlobalIndex> &some) const;
+  void extend(const AlignedVector<Mat> &kernels);
+  /** F H_0 of owned particle @p i within the limits of the stretch [m]. */
+  Mat carried_kernel(const std::size_t i, const Mat &F) const;
   /** Kernels of owned and ghost particles at the start. Collective. */
   void start(ParticleFields &fields, const GhostExchange &exchange) const;
 

@@ -52,6 +52,8 @@ public:
 
   /** For @p n_owned particles under @p rule. */
   void allocate(const std::size_t n_owned, const ResidualStrength &rule);
+  /** Room for more owned particles, sound ones; ghosts are dropped. */
+  void extend(const std::size_t n_owned, const ResidualStrength &rule);
   /** Every few steps: a regular kernel update looks as well. Failure is a
       property of the material, not of the search for neighbors: it has its
       own interval, shorter than that of kernel updates. */

@@ -50,6 +50,8 @@ public:
   /** Once, before anything else, for the owned particles. Sets work() to
       zero, [n_owned]; forms that override it call it. */
   virtual void allocate(const SpgParts &body);
+  /** Room for more owned particles, without memory. */
+  virtual void extend(const std::size_t n_owned) { done.resize(n_owned, 0.); }
   /** The list of bonds has changed: carry over what belongs to those that
       stayed. */
   virtual void carry_bonds(const BondList &) {}

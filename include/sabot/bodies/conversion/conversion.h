@@ -1,0 +1,125 @@
+#ifndef sabot_bodies_conversion_conversion_h
+#define sabot_bodies_conversion_conversion_h
+
+#include "sabot/base/exact_sum.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/base/types.h"
+#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/kernels/vec.h"
+#include "sabot/materials/material.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * What cells hand over to their nodes when they turn into particles: an eighth
+ * of each to every corner. One entry per owned node of the host that takes
+ * part, ascending by local number; SI units.
+ *
+ * Mass, energies and extensive quantities are sums over the cells that go;
+ * deformation, stress and state are their means, so that they lie between those
+ * of the cells. F is scaled to det F = volume/reference volume, the volume
+ * ratio that the cells had together, by which no pressure jumps.
+ */
+struct NodalMatter
+{
+  struct Entry
+  {
+    std::size_t node = 0;                           // local, of the host
+    double mass = 0.;                               // [kg]
+    double reference_volume = 0., volume = 0.;      // V_0, V [m^3]
+    double internal_energy = 0., plastic_work = 0.; // [J]
+    double hourglass_energy = 0.;                   // [J]
+    /** Recoverable energy of the cells' stresses at elastic moduli [J]. */
+    double elastic_energy = 0.;
+    double viscous_pressure = 0.;             // [Pa]
+    Mat gradient = Mat::zero();               // F
+    std::array<double, n_symmetric> stress{}; // [Pa]
+    /** The node has no cell left in the host. */
+    bool is_bare = false;
+  };
+  std::vector<Entry> entries;
+  /** States of the law, [entries][n_rows] in the order of its variables. */
+  std::vector<double> states;
+  std::size_t n_rows = 0;
+
+  /** Add what one cell hands to entry @p k: extensive quantities as sums, F and
+      states weighted by V_0, stress and viscous pressure by V. */
+  void add(const std::size_t k, const Entry &share, const double *share_states);
+  /** After the last share: sums become means. */
+  void finish();
+};
+
+/** Mean of two gradients with weights, scaled to the volume ratio @p J. */
+Mat mean_gradient(const Mat &a, const double weight_a, const Mat &b,
+                  const double weight_b, const double J);
+
+/** p^2/(2 K) + s : s/(4 G) [J/m^3], of stress components in the order of
+    n_symmetric. */
+double elastic_energy_density(const std::array<double, n_symmetric> &stress,
+                              const Material &law);
+
+/**
+ * A body of cells that may turn into particles at their nodes. What of it other
+ * bodies see, as Body::cell_source().
+ */
+class CellSource
+{
+public:
+  virtual ~CellSource() = default;
+
+  /** Before distribute(): cells will be asked for. @p criteria say which. */
+  virtual void convert_by(
+      std::vector<std::shared_ptr<const ConversionCriterion>> criteria) = 0;
+  /** Cells never turn that have one of these nodes, by number in the body:
+     those of ties, and what moves by prescription. The same on every rank. */
+  virtual void keep_around(const std::vector<GlobalIndex> &nodes) = 0;
+  /** Numbers of this rank's cells that shall turn now. @p is_failed [all local
+      nodes]: beside broken bonds; ghosts are filled here. Collective; ranks
+      that have a cell agree on it. */
+  virtual std::vector<std::size_t>
+  unfit_cells(std::vector<char> &is_failed) = 0;
+  /** Of the undeformed mesh, those whose center @p is_inside. */
+  virtual std::vector<std::size_t>
+  cells_in(const std::function<bool(const std::array<double, 3> &)> &is_inside)
+      const = 0;
+  /** Take these cells out, with their forces on the nodes, their faces and
+      their part of the nodes' masses. Inertia is left as it is: it moves only
+      where a node is bare, which is up to the caller. Local. */
+  virtual NodalMatter give(const std::vector<std::size_t> &cells) = 0;
+};
+
+/**
+ * A body of particles that grows by what cells give. Particle number k of the
+ * body is the node host_nodes()[k] of the host: numbers go up in the order in
+ * which particles came, so that those that are there keep theirs.
+ */
+class ParticleSink
+{
+public:
+  virtual ~ParticleSink() = default;
+
+  /** Make particles of matter, or let those that are there take it, with
+      position and velocity of @p host's nodes; then kernels, bonds and forces
+      of now. @p owner: of the host's nodes. Adds to @p lost what of the elastic
+      energy is gone by taking means [J]. Collective; @p step: the number of the
+      step that ended. */
+  virtual void take(const NodalMatter &matter, const NodalState &host,
+                    const std::vector<int> &owner, const unsigned int step,
+                    ExactSum &lost) = 0;
+  /** Of every particle of the body, by its number; the same on all ranks. */
+  virtual const std::vector<GlobalIndex> &host_nodes() const = 0;
+  /** Local numbers of owned particles beside broken bonds. */
+  virtual std::vector<std::size_t> failed_particles() const = 0;
+  /** The particle moves by its own forces from now on: its host's node has no
+      cells any more. @p i: owned. */
+  virtual void set_free(const std::size_t i) = 0;
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,79 @@
+#ifndef sabot_bodies_fem_fem_conversion_h
+#define sabot_bodies_fem_fem_conversion_h
+
+#include "sabot/base/ghost_exchange.h"
+#include "sabot/base/ledger.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/base/state_visitor.h"
+#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/fem/hexahedra.h"
+#include "sabot/bodies/fem/living_cells.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace sabot
+{
+/**
+ * Cells of a FEM body that turn into particles: which, and what they hand over.
+ * An eighth of a cell's mass, volume and energies goes to each corner, F at the
+ * center, stress and state of the law as means over its points.
+ *
+ * Every rank that has a cell comes to the same verdict on it and hands its
+ * share to the corners that it owns.
+ */
+class FemConversion : public CellSource
+{
+public:
+  /** What the body holds; outlives this. */
+  struct Parts
+  {
+    const Material &material;
+    NodalState &nodes;
+    const GhostExchange &exchange; // of nodes
+    Hexahedra &cells;
+    /** After distribute(). */
+    const std::function<LivingCells &()> living;
+    /** Called when cells have gone: what may be touched is another surface. */
+    const std::function<void()> surface_has_changed;
+  };
+  explicit FemConversion(const Parts &parts) : body(parts) {}
+
+  /** Whether cells may be asked for: convert_by() has been called. */
+  bool is_on() const { return on; }
+  /** After the cells were set up. */
+  void set_up();
+
+  void convert_by(std::vector<std::shared_ptr<const ConversionCriterion>>
+                      criteria) override;
+  void keep_around(const std::vector<GlobalIndex> &nodes) override;
+  std::vector<std::size_t> unfit_cells(std::vector<char> &is_failed) override;
+  std::vector<std::size_t>
+  cells_in(const std::function<bool(const std::array<double, 3> &)> &is_inside)
+      const override;
+  NodalMatter give(const std::vector<std::size_t> &cells) override;
+
+  /** Hourglass energy of cells that have gone where it is heat already, as of
+      viscous control: it stays in the ledger [J]. Local. */
+  void add_energies(EnergyLedger &ledger) const
+  {
+    ledger.hourglass.add(dissipated_modes);
+  }
+  void visit_state(StateVisitor &visitor);
+
+private:
+  /** Cell @p e into what it hands to one corner, and its states. */
+  void share_of(const std::size_t e, NodalMatter::Entry &share,
+                double *states) const;
+
+  const Parts body;
+  bool on = false;
+  std::vector<std::shared_ptr<const ConversionCriterion>> criteria;
+  std::vector<char> stays;         // by initial cell; empty: none does
+  std::vector<double> start_steps; // by initial cell [s], where asked for
+  ExactSum dissipated_modes;       // [J], shares of owned nodes
+};
+} // namespace sabot
+
+#endif

@@ -1,0 +1,120 @@
+#ifndef sabot_bodies_spg_particle_intake_h
+#define sabot_bodies_spg_particle_intake_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/spg/bond_list.h"
+#include "sabot/geometry/particle_cloud.h"
+
+#include <mpi.h>
+
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+namespace sabot
+{
+class BondFailure;
+class LagrangianKernel;
+class MaterialPoints;
+class ParticleApproximation;
+class ParticleSurface;
+class ResidualStrength;
+class SpgStableStep;
+class Stabilization;
+class VelocityConstraints;
+struct ParticleFields;
+struct SpgOptions;
+
+/**
+ * How an SPG body grows by what cells of its host give. Particle k is the node
+ * host_nodes()[k] of the host; numbers go up in the order in which particles
+ * came, and by the host's numbers among those that came together, so that local
+ * numbers of those that are there never change and every rank agrees.
+ *
+ * New particles come with F, state, volume and energies of their cells and with
+ * the kernel H = F H_0 that they would have, had they been there since the
+ * start; bonds join all that the kernels of the undeformed lattice reach, as in
+ * a zone of the start. A particle that has a share of its node's cells already
+ * takes the rest by means. The energy of elastic stresses that means do not
+ * have is handed back as lost and leaves the internal energy.
+ */
+class ParticleIntake : public ParticleSink
+{
+public:
+  /** The rooms of the body; they outlive this. */
+  struct Rooms
+  {
+    const SpgOptions &options;
+    const ParticleCloud &cloud; // of all nodes of the host; stays
+    NodalState &nodes;
+    BondList &bonds;
+    ParticleFields &fields;
+    MaterialPoints &points;
+    LagrangianKernel &kernel;
+    ParticleApproximation &approximation;
+    ParticleSurface &surface;
+    Stabilization &stabilization;
+    BondFailure &failure;
+    const ResidualStrength &residual_strength;
+    SpgStableStep &stable;
+    VelocityConstraints &constraints;
+    std::vector<int> &rank_of, &node_owner; // of every particle
+    GlobalIndex &n_global;
+    MPI_Comm &communicator;
+    /** A kernel update with the forces of now, which calls grow(). */
+    const std::function<void(const unsigned int step)> update;
+  };
+  ParticleIntake(const Rooms &rooms) : body(rooms) {}
+
+  /** After distribute(): normals of the host's surface. */
+  void set_up();
+
+  void take(const NodalMatter &matter, const NodalState &host,
+            const std::vector<int> &owner, const unsigned int step,
+            ExactSum &lost) override;
+  const std::vector<GlobalIndex> &host_nodes() const override { return hosts; }
+  std::vector<std::size_t> failed_particles() const override;
+  void set_free(const std::size_t i) override;
+
+  /** Whether matter waits for the kernel update that is under way. */
+  bool is_waiting() const { return matter != nullptr; }
+  /** Room for it in all arrays, and rows of bonds for SpgBody::renumber().
+      Collective. */
+  BondList::Rows grow();
+
+  /** Goes up whenever matter has been taken. */
+  unsigned int version() const { return n_taken; }
+  /** Whether so many have come since the last call that said so that the stable
+      step must be measured anew; the same on all ranks. */
+  bool has_grown_much();
+
+  /** Before anything else of the body: how many particles there are. */
+  void visit_state(StateVisitor &visitor);
+
+private:
+  /** Numbers for the nodes among the matter that are no particles yet; those of
+      this rank are returned. Collective. */
+  std::vector<std::size_t> number_new();
+  /** Arrays for @p fresh more particles, at rest and undeformed. */
+  void extend(const std::vector<GlobalIndex> &new_hosts);
+  void fill_new(const std::size_t i, const std::size_t entry);
+  void merge(const std::size_t i, const std::size_t entry);
+  /** The present rows, and all pairs with a particle from @p first_new on. */
+  BondList::Rows rows_with(const GlobalIndex first_new) const;
+
+  const Rooms body;
+  std::vector<GlobalIndex> hosts; // of every particle, by number
+  std::unordered_map<GlobalIndex, std::size_t> local_of_host; // owned
+  AlignedVector<Vec> normals; // of the host's nodes
+  unsigned int n_taken = 0;
+  GlobalIndex n_measured = 0; // particles at the last has_grown_much()
+  // While matter is taken
+  const NodalMatter *matter = nullptr;
+  const NodalState *host = nullptr;
+  const std::vector<int> *host_owner = nullptr;
+  ExactSum *lost = nullptr;
+};
+} // namespace sabot
+
+#endif

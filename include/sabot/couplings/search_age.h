@@ -1,0 +1,38 @@
+#ifndef sabot_couplings_search_age_h
+#define sabot_couplings_search_age_h
+
+#include "sabot/base/state_visitor.h"
+#include "sabot/bodies/body.h"
+
+#include <vector>
+
+namespace sabot
+{
+/** What makes a search among particles old: the way that they may have come
+    closer since, and particles that have come. */
+class SearchAge
+{
+public:
+  double traveled = 0.; // [m]
+  /** Whether bodies have others. Since the last call; the same on all ranks. */
+  bool have_changed(const std::vector<Body *> &bodies)
+  {
+    const unsigned int before = sum;
+    sum = 0;
+    for (const Body *const body : bodies)
+      if (body->particles() != nullptr)
+        sum += body->contact_surface_version();
+    return sum != before;
+  }
+  void visit_state(StateVisitor &visitor)
+  {
+    visitor.visit_value("traveled", traveled);
+    visitor.visit_value("versions of particles", sum);
+  }
+
+private:
+  unsigned int sum = 0;
+};
+} // namespace sabot
+
+#endif

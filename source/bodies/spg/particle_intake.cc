@@ -1,0 +1,274 @@
+// An SPG body that grows: new particles of what cells of the host give.
+#include "sabot/bodies/spg/particle_intake.h"
+
+#include "sabot/bodies/material_points.h"
+#include "sabot/bodies/spg/approximation/approximation.h"
+#include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
+#include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/failure/residual_strength.h"
+#include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/particle_surface.h"
+#include "sabot/bodies/spg/spg_options.h"
+#include "sabot/bodies/spg/stabilization/stabilization.h"
+#include "sabot/bodies/spg/stable_step.h"
+#include "sabot/bodies/velocity_constraints.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+void ParticleIntake::set_up()
+{
+  normals = outward_normals(body.cloud, body.options.symmetry_faces);
+  if (body.options.symmetry_faces != 0)
+    body.constraints.expect(VelocityConstraints::Holder::symmetry);
+  if (body.options.clamped_faces != 0)
+    body.constraints.expect(VelocityConstraints::Holder::clamp);
+}
+
+std::vector<std::size_t> ParticleIntake::failed_particles() const
+{
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    if (body.failure.has_cracks(i))
+      found.push_back(i);
+  return found;
+}
+
+void ParticleIntake::set_free(const std::size_t i)
+{
+  body.nodes.inertia[i] = body.nodes.lumped_mass[i];
+}
+
+void ParticleIntake::take(const NodalMatter &given, const NodalState &from,
+                          const std::vector<int> &owner,
+                          const unsigned int step, ExactSum &lost_energy)
+{
+  matter = &given;
+  host = &from;
+  host_owner = &owner;
+  lost = &lost_energy;
+  body.update(step);
+  matter = nullptr;
+  ++n_taken;
+}
+
+std::vector<std::size_t> ParticleIntake::number_new()
+{
+  std::vector<GlobalIndex> mine;
+  std::vector<std::size_t> entries;
+  for (std::size_t k = 0; k < matter->entries.size(); ++k)
+  {
+    const GlobalIndex id = host->global_id[matter->entries[k].node];
+    if (local_of_host.count(id) > 0)
+      continue;
+    mine.push_back(id);
+    entries.push_back(k);
+  }
+  int n_ranks;
+  MPI_Comm_size(body.communicator, &n_ranks);
+  const int n_mine = mine.size();
+  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
+  MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT,
+                body.communicator);
+  for (int r = 1; r < n_ranks; ++r)
+    starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<GlobalIndex> all(starts.back() + counts.back());
+  static_assert(sizeof(GlobalIndex) == sizeof(std::int64_t), "sent as 64 bits");
+  MPI_Allgatherv(mine.data(), n_mine, MPI_INT64_T, all.data(), counts.data(),
+                 starts.data(), MPI_INT64_T, body.communicator);
+  std::sort(all.begin(), all.end());
+  for (const GlobalIndex id : all)
+  {
+    hosts.push_back(id);
+    body.rank_of.push_back((*host_owner)[id]);
+    body.node_owner.push_back((*host_owner)[id]);
+  }
+  body.n_global = hosts.size();
+  return entries;
+}
+
+void ParticleIntake::extend(const std::vector<GlobalIndex> &new_hosts)
+{
+  NodalState &nodes = body.nodes;
+  const std::size_t before = nodes.n_owned, n = before + new_hosts.size();
+  nodes.resize(before); // ghosts are numbered anew
+  nodes.n_owned = n;
+  nodes.resize(n);
+  for (std::size_t k = 0; k < new_hosts.size(); ++k)
+  {
+    const auto &X = body.cloud.position[new_hosts[k]];
+    nodes.reference_position[before + k] = vec(X[0], X[1], X[2]);
+    local_of_host[new_hosts[k]] = before + k;
+  }
+  body.fields.extend(n);
+  body.points.extend(n);
+  body.kernel.extend(body.kernel.initial_kernels_of(body.cloud, new_hosts));
+  body.approximation.extend(n);
+  body.failure.extend(n, body.residual_strength);
+  body.stable.extend(n);
+  body.stabilization.extend(n);
+  body.surface.extend(body.cloud, normals, new_hosts,
+                      body.options.clamped_faces, body.constraints);
+}
+
+void ParticleIntake::fill_new(const std::size_t i, const std::size_t entry)
+{
+  const NodalMatter::Entry &e = matter->entries[entry];
+  NodalState &nodes = body.nodes;
+  nodes.position[i] = host->position[e.node];
+  nodes.velocity[i] = host->velocity[e.node];
+  nodes.force[i] = Vec{};
+  nodes.lumped_mass[i] = e.mass;
+  nodes.inertia[i] = e.is_bare ? e.mass : 0.;
+  ParticleFields &fields = body.fields;
+  fields.reference_volume[i] = e.reference_volume;
+  fields.kernel_reference_volume[i] = e.volume;
+  fields.kernel_reference_deformation_gradient[i] = e.gradient;
+  fields.kernel[i] = body.kernel.carried_kernel(i, e.gradient);
+  for (int c = 0; c < n_symmetric; ++c)
+    body.points.stress_row(c)[i] = e.stress[c];
+  for (std::size_t r = 0; r < matter->n_rows; ++r)
+    body.points.state_row(r)[i] = matter->states[entry * matter->n_rows + r];
+  body.points.viscous_pressure[i] = e.viscous_pressure;
+  body.points.plastic_work[i] = e.plastic_work;
+  const double loss =
+      e.elastic_energy -
+      e.volume * elastic_energy_density(e.stress, body.points.law());
+  body.points.internal_energy[i] = e.internal_energy - loss;
+  lost->add(loss);
+}
+
+void ParticleIntake::merge(const std::size_t i, const std::size_t entry)
+{
+  const NodalMatter::Entry &e = matter->entries[entry];
+  ParticleFields &fields = body.fields;
+  MaterialPoints &points = body.points;
+  const double V_0 = fields.reference_volume[i],
+               V_0_sum = V_0 + e.reference_volume,
+               V = fields.kernel_reference_volume[i], V_sum = V + e.volume;
+  body.nodes.lumped_mass[i] += e.mass;
+  fields.kernel_reference_deformation_gradient[i] =
+      mean_gradient(fields.kernel_reference_deformation_gradient[i], V_0,
+                    e.gradient, e.reference_volume, V_sum / V_0_sum);
+  fields.reference_volume[i] = V_0_sum;
+  fields.kernel_reference_volume[i] = V_sum;
+  std::array<double, n_symmetric> old, mean;
+  for (int c = 0; c < n_symmetric; ++c)
+  {
+    old[c] = points.stress_row(c)[i];
+    mean[c] = (V * old[c] + e.volume * e.stress[c]) / V_sum;
+    points.stress_row(c)[i] = mean[c];
+  }
+  for (std::size_t r = 0; r < matter->n_rows; ++r)
+  {
+    double &state = points.state_row(r)[i];
+    state = (V_0 * state +
+             e.reference_volume * matter->states[entry * matter->n_rows + r]) /
+            V_0_sum;
+  }
+  points.viscous_pressure[i] =
+      (V * points.viscous_pressure[i] + e.volume * e.viscous_pressure) / V_sum;
+  points.plastic_work[i] += e.plastic_work;
+  const Material &law = points.law();
+  const double loss = e.elastic_energy + V * elastic_energy_density(old, law) -
+                      V_sum * elastic_energy_density(mean, law);
+  points.internal_energy[i] += e.internal_energy - loss;
+  lost->add(loss);
+}
+
+BondList::Rows ParticleIntake::grow()
+{
+  const GlobalIndex first_new = hosts.size();
+  const std::vector<std::size_t> fresh = number_new();
+  std::vector<GlobalIndex> new_hosts;
+  for (const std::size_t entry : fresh)
+    new_hosts.push_back(host->global_id[matter->entries[entry].node]);
+  const std::size_t before = body.nodes.n_owned;
+  for (std::size_t k = 0; k < matter->entries.size(); ++k)
+  {
+    const auto known =
+        local_of_host.find(host->global_id[matter->entries[k].node]);
+    if (known != local_of_host.end())
+      merge(known->second, k);
+  }
+  BondList::Rows old_rows(before);
+  for (std::size_t i = 0; i < before; ++i)
+    for (std::size_t b = body.bonds.begin(i); b < body.bonds.end(i); ++b)
+      old_rows[i].push_back(body.nodes.global_id[body.bonds.neighbor[b]]);
+  extend(new_hosts);
+  for (std::size_t k = 0; k < fresh.size(); ++k)
+  {
+    const std::size_t i = before + k;
+    body.nodes.global_id[i] =
+        std::lower_bound(hosts.begin() + first_new, hosts.end(), new_hosts[k]) -
+        hosts.begin();
+    fill_new(i, fresh[k]);
+  }
+  BondList::Rows rows = rows_with(first_new);
+  for (std::size_t i = 0; i < before; ++i)
+    rows[i].insert(rows[i].begin(), old_rows[i].begin(), old_rows[i].end());
+  std::vector<char> has_grown(rows.size(), 0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    has_grown[i] = i >= before || rows[i].size() > old_rows[i].size();
+  body.approximation.renew_intact(has_grown);
+  return rows;
+}
+
+BondList::Rows ParticleIntake::rows_with(const GlobalIndex first_new) const
+{
+  // Of the undeformed lattice, as in a zone of the start.
+  std::vector<std::array<double, 3>> points(hosts.size());
+  for (std::size_t k = 0; k < hosts.size(); ++k)
+    points[k] = body.cloud.position[hosts[k]];
+  const std::vector<GlobalIndex> owned(body.nodes.global_id.begin(),
+                                       body.nodes.global_id.begin() +
+                                           body.nodes.n_owned);
+  BondList::Rows rows = BondList::rows_in_kernels(
+      points, body.kernel.initial_kernels_of(body.cloud, hosts),
+      body.options.has_tensor_kernel(), owned);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (owned[i] < first_new)
+      rows[i].erase(
+          rows[i].begin(),
+          std::lower_bound(rows[i].begin(), rows[i].end(), first_new));
+  return rows;
+}
+
+bool ParticleIntake::has_grown_much()
+{
+  constexpr double much = 1.05;
+  if (!(body.n_global > much * n_measured))
+    return false;
+  n_measured = body.n_global;
+  return true;
+}
+
+void ParticleIntake::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_value("particles of the last calibration", n_measured);
+  visitor.visit_value("times that particles came", n_taken);
+  visitor.visit_resized("host nodes", hosts);
+  visitor.visit_resized("owners of particles", body.node_owner);
+  if (visitor.is_restoring())
+  {
+    int rank;
+    MPI_Comm_rank(body.communicator, &rank);
+    body.rank_of = body.node_owner;
+    std::vector<GlobalIndex> ids, mine;
+    for (std::size_t k = 0; k < hosts.size(); ++k)
+      if (body.rank_of[k] == rank)
+      {
+        ids.push_back(k);
+        mine.push_back(hosts[k]);
+      }
+    const std::size_t before = body.nodes.n_owned;
+    body.n_global = hosts.size();
+    extend({mine.begin() + before, mine.end()});
+    std::copy(ids.begin(), ids.end(), body.nodes.global_id.begin());
+  }
+  visitor.visit("mass", body.nodes.lumped_mass.data(), body.nodes.n_owned,
+                sizeof(double));
+  visitor.visit_array("reference volume", body.fields.reference_volume);
+}
+} // namespace sabot

@@ -1,0 +1,182 @@
+// Cells that turn into particles, and the nodes that both share.
+#include "sabot/couplings/self_finding_zone.h"
+
+#include <algorithm>
+
+namespace sabot
+{
+SelfFindingZone::SelfFindingZone(const std::string &name,
+                                 const std::vector<Body *> &bodies,
+                                 const SelfFindingOptions &options,
+                                 MPI_Comm communicator,
+                                 const std::shared_ptr<TiedNodes> &others)
+    : Coupling(name), options(options), zone(*bodies[options.zone]),
+      host(*bodies[options.host]), source(*host.cell_source()),
+      sink(*zone.particle_sink()), communicator(communicator), others(others)
+{
+}
+
+void SelfFindingZone::initialize()
+{
+  std::vector<GlobalIndex> kept;
+  if (others)
+    for (const auto *const nodes : {&others->followers, &others->leaders})
+      for (const auto &[node, tie] : *nodes)
+        if (node.first == options.host)
+          kept.push_back(node.second);
+  std::sort(kept.begin(), kept.end());
+  source.keep_around(kept);
+  if (options.is_start)
+    convert(source.cells_in(options.is_start), 0);
+}
+
+bool SelfFindingZone::change_bodies(const unsigned int step)
+{
+  if (step % options.interval != 0)
+    return false;
+  std::vector<char> is_failed(host.nodes().size(), 0);
+  const auto mark = [&](const std::vector<Shared> &pairs)
+  {
+    for (const Shared &pair : pairs)
+      if (is_failing[pair.particle])
+        is_failed[pair.node] = 1;
+  };
+  is_failing.assign(zone.nodes().n_owned, 0);
+  for (const std::size_t i : sink.failed_particles())
+    is_failing[i] = 1;
+  mark(shared);
+  mark(alone);
+  return convert(source.unfit_cells(is_failed), step);
+}
+
+bool SelfFindingZone::convert(const std::vector<std::size_t> &cells,
+                              const unsigned int step)
+{
+  int any = !cells.empty();
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, communicator);
+  if (any == 0)
+    return false;
+  NodalState &nodes = host.nodes(), &particles = zone.nodes();
+  // Nodes have their particles' forces: back to those of cells and couplings.
+  take_back();
+  const NodalMatter matter = source.give(cells);
+  for (const NodalMatter::Entry &entry : matter.entries)
+  {
+    hourglass.add(entry.hourglass_energy);
+    converted_mass.add(entry.mass);
+    converted_energy.add(entry.internal_energy);
+  }
+  const std::size_t before = particles.n_owned;
+  sink.take(matter, nodes, host.node_owner, step, lost);
+  pair_new(before);
+  settle_pairs(matter);
+  hand_on();
+  return true;
+}
+
+void SelfFindingZone::pair_new(const std::size_t first)
+{
+  const NodalState &nodes = host.nodes(), &particles = zone.nodes();
+  for (std::size_t i = first; i < particles.n_owned; ++i)
+  {
+    const GlobalIndex id = sink.host_nodes()[particles.global_id[i]];
+    const auto node = std::lower_bound(
+        nodes.global_id.begin(), nodes.global_id.begin() + nodes.n_owned, id);
+    shared.push_back({i, std::size_t(node - nodes.global_id.begin())});
+  }
+}
+
+void SelfFindingZone::settle_pairs(const NodalMatter &matter)
+{
+  // A node without cells and mass hands over all that acts on it, and goes
+  // along; one that eroded cells have left a mass stays and leads.
+  NodalState &nodes = host.nodes(), &particles = zone.nodes();
+  std::vector<char> goes(nodes.n_owned, 0);
+  for (const NodalMatter::Entry &entry : matter.entries)
+    goes[entry.node] = entry.is_bare && nodes.lumped_mass[entry.node] == 0.;
+  std::size_t kept = 0;
+  for (const Shared &pair : shared)
+  {
+    if (!goes[pair.node])
+    {
+      particles.inertia[pair.particle] = 0.;
+      shared[kept++] = pair;
+      continue;
+    }
+    sink.set_free(pair.particle);
+    particles.force[pair.particle] += nodes.force[pair.node];
+    nodes.force[pair.node] = Vec{};
+    nodes.inertia[pair.node] = 0.;
+    alone.push_back(pair);
+  }
+  shared.resize(kept);
+}
+
+void SelfFindingZone::take_back()
+{
+  NodalState &nodes = host.nodes();
+  for (std::size_t k = 0; k < shared.size(); ++k)
+    nodes.force[shared[k].node] -= handed[k];
+}
+
+void SelfFindingZone::hand_on()
+{
+  NodalState &nodes = host.nodes();
+  const NodalState &particles = zone.nodes();
+  handed.resize(shared.size());
+  for (std::size_t k = 0; k < shared.size(); ++k)
+  {
+    handed[k] = particles.force[shared[k].particle];
+    nodes.force[shared[k].node] += handed[k];
+  }
+}
+
+void SelfFindingZone::impose_kinematics()
+{
+  NodalState &nodes = host.nodes(), &particles = zone.nodes();
+  for (const Shared &pair : shared)
+    particles.velocity[pair.particle] = nodes.velocity[pair.node];
+  for (const Shared &pair : alone)
+    nodes.velocity[pair.node] = particles.velocity[pair.particle];
+}
+
+void SelfFindingZone::add_forces(const double)
+{
+  hand_on();
+}
+
+void SelfFindingZone::forward_changes()
+{
+  take_back();
+  hand_on();
+}
+
+void SelfFindingZone::add_energies(EnergyLedger &ledger) const
+{
+  ledger.conversion.add(lost);
+  ledger.conversion.add(hourglass);
+}
+
+Measures SelfFindingZone::measure() const
+{
+  ExactSum mass = converted_mass, energy = converted_energy, gone = lost,
+           modes = hourglass;
+  ExactSum::reduce({&mass, &energy, &gone, &modes}, communicator);
+  return {{"converted mass", "kg", mass.value()},
+          {"particles", "1", double(sink.host_nodes().size())},
+          {"energy of what was converted", "J", energy.value()},
+          {"energy lost by means", "J", gone.value()},
+          {"hourglass energy lost", "J", modes.value()}};
+}
+
+void SelfFindingZone::visit_state(StateVisitor &visitor)
+{
+  visitor.visit_value("energy lost", lost);
+  visitor.visit_value("hourglass energy lost", hourglass);
+  visitor.visit_value("converted mass", converted_mass);
+  visitor.visit_value("converted energy", converted_energy);
+  visitor.visit_resized("shared nodes", shared);
+  visitor.visit_resized("nodes of particles alone", alone);
+  visitor.visit_resized("forces handed on", handed);
+}
+} // namespace sabot

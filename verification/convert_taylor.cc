@@ -1,0 +1,110 @@
+// The copper Taylor bar whose foot turns into particles as it flows.
+#include "sabot/base/choice.h"
+#include "verification/balance.h"
+#include "verification/convert.h"
+#include "verification/problem.h"
+
+namespace sabot
+{
+namespace
+{
+struct Bar
+{
+  double length = 0., radius = 0., residual = 0., lost = 0., converted = 0.;
+  double particles = 0.;
+  unsigned int steps = 0;
+};
+
+/** Quarter bar on a frictionless wall (a plane of symmetry) to 80 us; cells
+   turn by @p criteria, of all with none of them at the start. */
+Bar taylor(const double h, const bool from_start,
+           const std::vector<std::string> &criteria)
+{
+  World world;
+  ConvertingOptions options;
+  options.name = "bar";
+  options.fem.initial_velocity = {{0., 0., -227.}};
+  options.fem.symmetry_boundary_ids = {3, 4, 0};
+  const auto where = add_converting(
+      world, make_cylinder(3.2e-3, 32.4e-3, 2, {{0, 0, 16.2e-3}}, h, 2),
+      taylor_copper(), options);
+  if (from_start)
+    *where = [](const Place &) { return true; };
+  else
+  {
+    std::vector<std::shared_ptr<const ConversionCriterion>> chosen;
+    for (const std::string &name : criteria)
+      chosen.push_back(choose<ConversionCriterion>(name));
+    world.bodies[0]->cell_source()->convert_by(std::move(chosen));
+  }
+  join_converting(world);
+  world.distribute();
+  world.stepper.initialize();
+  EnergyWatch watch(world);
+  while (world.stepper.time() < 80e-6)
+  {
+    world.advance(0.8);
+    if (world.stepper.steps() % 20 == 0)
+      watch.look();
+  }
+  Bar bar;
+  Vec low = vec(1., 1., 1.), high = vec(-1., -1., -1.);
+  for (const auto &body : world.bodies)
+    for (std::size_t i = 0; i < body->nodes().n_owned; ++i)
+      for (int d = 0; d < 3; ++d)
+      {
+        low[d] = std::min(low[d], body->nodes().position[i][d]);
+        high[d] = std::max(high[d], body->nodes().position[i][d]);
+      }
+  bar.length = high[2] - low[2];
+  bar.radius = 0.5 * (high[0] + high[1] - low[0] - low[1]);
+  bar.residual = watch.residual();
+  bar.lost = world.ledger().conversion.value();
+  bar.converted = world.couplings[0]->measure()[2].value;
+  bar.particles = world.bodies[1]->nodes().n_owned;
+  bar.steps = world.stepper.steps();
+  return bar;
+}
+
+std::vector<Check> problem()
+{
+  const double h = 0.8e-3;
+  const Bar cells = taylor(h, false, {}), all = taylor(h, true, {}),
+            foot = taylor(h, false, {"plastic strain", "shape", "stable step"});
+  std::vector<Check> checks;
+  const auto between = [&](const std::string &name, const double a,
+                           const double b, const double got)
+  {
+    checks.push_back(
+        {name + " of cells", 0., a, 0., "m", "", Check::Kind::reported});
+    checks.push_back(
+        {name + " of particles", 0., b, 0., "m", "", Check::Kind::reported});
+    // As far from their mean as they are apart, and 1 % more.
+    checks.push_back({name + ", foot converted", 0.5 * (a + b), got,
+                      0.5 * std::abs(a - b) + 0.01 * a, "m",
+                      "between the pure forms"});
+  };
+  between("length", cells.length, all.length, foot.length);
+  between("radius", cells.radius, all.radius, foot.radius);
+  checks.push_back({"particles found", 0., foot.particles, 0., "1", "",
+                    Check::Kind::reported});
+  checks.push_back({"steps: cells", 0., double(cells.steps), 0., "1", "",
+                    Check::Kind::reported});
+  checks.push_back({"steps: foot converted", 0., double(foot.steps), 0., "1",
+                    "", Check::Kind::reported});
+  checks.push_back({"energy lost by means", 0., foot.lost / foot.converted, 0.,
+                    "of the internal energy converted", "",
+                    Check::Kind::reported});
+  for (const Bar *bar : {&all, &foot})
+    checks.push_back({"energy residual", 0., bar->residual, 5e-3, "1",
+                      "closed system", Check::Kind::at_most});
+  return checks;
+}
+
+const RegisterProblem registered(
+    {"convert-taylor",
+     "The copper Taylor bar whose foot turns into particles, between those of "
+     "cells and of particles.",
+     "quick", problem});
+} // namespace
+} // namespace sabot

@@ -1,0 +1,116 @@
+// A pulse through a block whose cells turn into particles under it.
+#include "verification/convert.h"
+#include "verification/problem.h"
+
+namespace sabot
+{
+namespace
+{
+constexpr double cell = 1e-3; // [m]
+
+/** Cells whose end at x = 0 moves as a burst of two periods, then is held. */
+class DrivenCells : public FemBody
+{
+public:
+  template <typename... Arguments>
+  DrivenCells(const double period, Arguments &&...arguments)
+      : FemBody(std::forward<Arguments>(arguments)...), period(period)
+  {
+  }
+  void impose_velocities(const double time) override
+  {
+    FemBody::impose_velocities(time);
+    const double window = std::sin(0.5 * M_PI * time / period);
+    const double v = time < 2. * period
+                         ? window * window * std::sin(2. * M_PI * time / period)
+                         : 0.;
+    NodalState &n = nodes();
+    for (std::size_t i = 0; i < n.size(); ++i)
+      if (n.reference_position[i][0] < 1e-9)
+        n.velocity[i] = vec(v, 0., 0.);
+  }
+
+private:
+  const double period;
+};
+
+/** Particles that nobody drives, made like DrivenCells. */
+class FreeParticles : public SpgBody
+{
+public:
+  template <typename... Arguments>
+  FreeParticles(const double, Arguments &&...arguments)
+      : SpgBody(std::forward<Arguments>(arguments)...)
+  {
+  }
+};
+
+struct Passed
+{
+  double reflected, lost, residual; // over the energy sent in
+};
+
+/** A plane wave of @p n cells per length. All cells beyond four lengths turn at
+    once while the pulse lies across the border, or one layer after the other
+    ahead of it. */
+Passed pass(const int n, const bool at_once)
+{
+  const double length = n * cell, period = length / elastic()->sound_speed();
+  World world;
+  ConvertingOptions options;
+  options.fem.bulk_viscosity_linear = options.fem.bulk_viscosity_quadratic = 0.;
+  options.fem.symmetry_boundary_ids = {2, 3, 4, 5};
+  options.spg.bulk_viscosity_linear = options.spg.bulk_viscosity_quadratic = 0.;
+  const double border = 4. * length, end = 9. * length;
+  const auto where = add_converting<DrivenCells, FreeParticles>(
+      world, block_mesh({{end, cell, cell}}, {{0.5 * end, 0., 0.}}, cell),
+      elastic(), options, period);
+  join_converting(world);
+  world.distribute();
+  world.stepper.initialize();
+  while (world.stepper.time() < 2. * period)
+    world.advance(0.9);
+  const double sent = world.total_energy();
+  double worst = 0.;
+  while (world.stepper.time() < 8. * period)
+  {
+    const double front = world.stepper.time() / period * length;
+    if (at_once && world.stepper.time() >= 5. * period)
+      *where = [=](const Place &x) { return x[0] > border; };
+    if (!at_once)
+      *where = [=](const Place &x)
+      { return x[0] > border && x[0] < front + 2. * cell; };
+    world.advance(0.9);
+    worst = std::max(worst, std::abs(world.total_energy() - sent) / sent);
+  }
+  EnergyLedger behind;
+  world.bodies[0]->add_energies(behind);
+  return {behind.total().value() / sent,
+          world.ledger().conversion.value() / sent, worst};
+}
+
+std::vector<Check> pulse()
+{
+  std::vector<Check> checks;
+  for (const int n : {10, 20})
+    for (const bool at_once : {true, false})
+    {
+      const Passed p = pass(n, at_once);
+      const std::string what = std::to_string(n) + " cells per wave, " +
+                               (at_once ? "at once: " : "layer by layer: ");
+      checks.push_back({what + "energy that comes back", 0., p.reflected, 0.01,
+                        "1", "of what was sent", Check::Kind::at_most});
+      checks.push_back({what + "energy lost by means", 0., p.lost, 0., "1", "",
+                        Check::Kind::reported});
+      checks.push_back({what + "energy residual", 0., p.residual, 5e-3, "1", "",
+                        Check::Kind::at_most});
+    }
+  return checks;
+}
+
+const RegisterProblem registered(
+    {"convert-pulse",
+     "Elastic pulse through a block whose cells turn into particles under it.",
+     "quick", pulse});
+} // namespace
+} // namespace sabot
