@@ -304,6 +304,31 @@ void BodyAssembly::take_from_host(const Carving &carving)
   }
 }
 
+void BodyAssembly::refuse_with_growth(const Carving &carving) const
+{
+  {
+    const EnteredSubsection entered(prm, "Bodies", carving.body);
+    if (prm.get_bool("Heat conduction"))
+      throw InputError("Bodies/" + carving.body + "/Heat conduction",
+                       "heat is conducted in all cells of a body or in none, "
+                       "but cells of this one turn into particles of \"" +
+                           carving.zone +
+                           "\"; remove the entry, or let that zone be fixed");
+  }
+  for (const std::string &load : file.subsections("Loads"))
+  {
+    const std::string body = trim(file.value("Loads/" + load + "/Body", ""));
+    if (file.is_set("Loads/" + load + "/Faces") &&
+        (body == carving.body || body == carving.zone))
+      throw InputError("Loads/" + load + "/Body",
+                       "\"" + body +
+                           "\" has cells that turn into particles, "
+                           "with which a load on its faces would be lost; load "
+                           "another body, or let the zone \"" +
+                           carving.zone + "\" be fixed");
+  }
+}
+
 GrowingZone BodyAssembly::record_growing(const Carving &carving)
 {
   GrowingZone zone;
@@ -318,6 +343,7 @@ GrowingZone BodyAssembly::record_growing(const Carving &carving)
   const Material &law = *bodies[zone.host]->facts().material;
   for (const auto &criterion : zone.request.criteria)
     criterion->check(law, path);
+  refuse_with_growth(carving);
   bodies[zone.host]->cell_source()->convert_by(zone.request.criteria);
   return zone;
 }

@@ -1,5 +1,6 @@
 // The run of a scene, from set-up to result.
 #include "sabot/simulation/run.h"
+#include "sabot/simulation/found_zone.h"
 
 #include "sabot/base/error_report.h"
 #include "sabot/base/stop_signals.h"
@@ -314,6 +315,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
   log.line(text);
   describe_quality(scene, control_shares, balance.energy_scale(), log);
   for (const ZoneVerdict &zone : zones)
+    log.line("  " + describe(zone));
+  for (const FoundZone &zone : find_grown(scene, communicator))
     log.line("  " + describe(zone));
   if (status == "failed" && !scene.quantities.empty())
     log.line("  quantities of a state that went wrong are not given");

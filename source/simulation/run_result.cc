@@ -1,6 +1,8 @@
 // What result.json says of a run.
 #include "sabot/simulation/run_result.h"
 
+#include "sabot/simulation/found_zone.h"
+
 #include "sabot/simulation/run.h"
 
 #include <nlohmann/json.hpp>
@@ -60,6 +62,25 @@ ordered_json zone_results(const std::vector<ZoneVerdict> &verdicts)
                     : v.plastic_distance <= 0. ? "plastic flow passed the tie"
                                                : "contained"}};
   return zones;
+}
+
+/** What zones that find themselves have found; nothing where there are none.
+    Collective. */
+void add_found_zones(const Scene &scene, ordered_json &r, MPI_Comm communicator)
+{
+  for (const FoundZone &found : find_grown(scene, communicator))
+  {
+    std::array<double, 3> size, center;
+    for (int d = 0; d < 3; ++d)
+    {
+      size[d] = found.high[d] - found.low[d];
+      center[d] = 0.5 * (found.low[d] + found.high[d]);
+    }
+    r["found zones"][found.zone] = {{"host", found.host},
+                                    {"particles", found.n_particles},
+                                    {"size", size},
+                                    {"center", center}};
+  }
 }
 
 /** A measure's name as a key. */
@@ -254,6 +275,7 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
   add_couplings(scene, r);
   add_loads(scene, r);
   r["zone"] = zone_results(zones);
+  add_found_zones(scene, r, communicator);
   r["knobs"] = ordered_json::object();
   for (const auto &[path, value] : scene.knobs())
     r["knobs"][path] = value;

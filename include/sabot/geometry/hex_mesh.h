@@ -29,6 +29,10 @@ struct HexMesh
   std::vector<std::array<GlobalIndex, 4>> boundary_faces;
   std::vector<unsigned int> boundary_id;
 };
+
+/** Nodes of the boundary faces with these ids, ascending, each once. */
+std::vector<GlobalIndex> nodes_of_faces(const HexMesh &mesh,
+                                        const std::vector<unsigned int> &ids);
 } // namespace sabot
 
 #endif

@@ -81,6 +81,8 @@ private:
   /** By the bodies as they were built; the host is told. InputError where host
       and zone do not fit. */
   GrowingZone record_growing(const Carving &carving);
+  /** InputError for what a host whose cells go cannot have. */
+  void refuse_with_growth(const Carving &carving) const;
   /** Number of a body that has been built. */
   int number_of(const std::string &name) const;
   /** By the bodies as they were built: numbers, bounds and spacing [m]. */

@@ -96,7 +96,7 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
         std::make_unique<FemErosion>(options, *material, nodal_state, *cells,
                                      *living, owned_cell, communicator);
   if (conversion.is_on())
-    conversion.set_up();
+    conversion.set_up(nodes_of_faces(mesh, options.driven_boundary_ids));
   mesh = HexMesh();
   if (options.conducts_heat)
   {

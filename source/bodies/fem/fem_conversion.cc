@@ -17,8 +17,9 @@ void FemConversion::convert_by(
   criteria = std::move(all);
 }
 
-void FemConversion::set_up()
+void FemConversion::set_up(const std::vector<GlobalIndex> &driven)
 {
+  keep_around(driven);
   if (std::any_of(criteria.begin(), criteria.end(),
                   [](const auto &c) { return c->needs_steps(); }))
     body.cells.cell_step.assign(body.cells.size(),

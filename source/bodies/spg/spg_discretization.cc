@@ -173,6 +173,11 @@ public:
     options.symmetry_faces = face_bits(request, "Symmetry faces", faces);
     options.clamped_faces = face_bits(request, "Clamped faces", faces);
     options.grows = request.prm.get("Zone") != "fixed";
+    if (options.grows && options.stores_gradients())
+      throw InputError(request.path + "/Approximation",
+                       "is " + request.prm.get("Approximation") +
+                           ", whose masses are row sums of the cloud of the "
+                           "start; a self-finding zone needs least squares");
     if (options.grows)
       cloud.spacing.fill(get_quantities(request.prm, "Nodal spacing")[0]);
     auto body =

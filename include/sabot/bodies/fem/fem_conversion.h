@@ -42,8 +42,9 @@ public:
 
   /** Whether cells may be asked for: convert_by() has been called. */
   bool is_on() const { return on; }
-  /** After the cells were set up. */
-  void set_up();
+  /** After the cells were set up; @p driven: nodes of driven faces, by number,
+      around which cells stay. */
+  void set_up(const std::vector<GlobalIndex> &driven);
 
   void convert_by(std::vector<std::shared_ptr<const ConversionCriterion>>
                       criteria) override;
