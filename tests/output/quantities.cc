@@ -184,6 +184,71 @@ TEST_F(Quantities, of_half_a_torn_bar_as_of_the_whole)
         << name;
 }
 
+TEST_F(Quantities, half_a_body_does_not_move_across_its_cut)
+{
+  // Pressed against its plane of symmetry it does, and its image, too.
+  const std::string scene = std::string(metal) + R"(
+set End time           = 0.3 us
+set List of bodies     = block
+set List of loads      = squeeze
+set List of quantities = across, piece, along, slanted, absorbed
+subsection Bodies
+  subsection block
+    set Size             = 4 mm, 2 mm, 4 mm
+    set Center           = 0 mm, 1 mm, 0 mm
+    set Cell size        = 1 mm
+    set Symmetry faces   = -y
+    set Material         = metal
+    set Initial velocity = 100 m/s, 0 m/s, 0 m/s
+  end
+end
+subsection Loads
+  subsection squeeze
+    set Type     = pressure
+    set Body     = block
+    set Faces    = +y
+    set Pressure = 200 MPa
+  end
+end
+subsection Quantities
+  subsection across
+    set Type      = velocity
+    set Body      = block
+    set Direction = 0, 1, 0
+  end
+  subsection piece
+    set Type      = largest piece velocity
+    set Body      = block
+    set Direction = 0, -1, 0
+  end
+  subsection along
+    set Type      = velocity
+    set Body      = block
+    set Direction = 1, 0, 0
+  end
+  subsection slanted
+    set Type      = velocity
+    set Body      = block
+    set Direction = 1, 1, 0
+  end
+  subsection absorbed
+    set Type = absorbed energy
+    set Body = block
+  end
+end
+)";
+  const std::string path = folder + "/squeezed.prm";
+  std::ofstream(path) << scene;
+  const nlohmann::json r = run(path, {});
+  EXPECT_LT(r["bodies"]["block"]["velocity"][1].get<double>(), -1.);
+  EXPECT_EQ(value(r, "across"), 0.);
+  EXPECT_EQ(value(r, "piece"), 0.);
+  EXPECT_NEAR(value(r, "along"), 100., 1e-6);
+  EXPECT_NEAR(value(r, "slanted"), std::sqrt(0.5) * 100., 1e-6);
+  // 2 * 2700 kg/m^3 * 32 mm^3 * (100 m/s)^2/2 = 0.864 J were there.
+  EXPECT_NEAR(value(r, "absorbed"), 0., 1e-6);
+}
+
 /** A plate of cells at rest out of which particles are carved. */
 const char *const carved = R"(
 set End time           = 0.1 us

@@ -20,7 +20,7 @@ public:
   {
     const BodyMeasures m = body.measure();
     double square = 0.;
-    for (const double v : m.velocity)
+    for (const double v : velocity_of_whole(body))
       square += v * v;
     return 0.5 * copies_by_symmetry(body) *
            ((m.mass + m.eroded_mass) * start - m.mass * square);

@@ -70,7 +70,7 @@ public:
         piece = all.front();
     }
     else
-      piece.velocity = direction.body.measure().velocity;
+      piece.velocity = velocity_of_whole(direction.body);
     return along(direction, piece);
   }
   std::string unit() const override { return "m/s"; }

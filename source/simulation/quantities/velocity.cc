@@ -14,7 +14,7 @@ public:
   }
   double value() const override
   {
-    const std::array<double, 3> v = along.body.measure().velocity;
+    const std::array<double, 3> v = velocity_of_whole(along.body);
     return along.direction[0] * v[0] + along.direction[1] * v[1] +
            along.direction[2] * v[2];
   }
@@ -27,7 +27,9 @@ private:
 const UnitOfQuantity described("velocity", "m/s");
 
 const Registry<QuantityOfInterest>::Add
-    registered({"velocity", "of the body's center of mass along the direction.",
+    registered({"velocity",
+                "of the body's center of mass along the direction; "
+                "of the whole where planes of symmetry cut it.",
                 declare_directed_quantity, [](const QuantityRequest &request) {
                   return std::make_unique<Velocity>(request);
                 }});
