@@ -110,9 +110,9 @@ void Scene::build_loads()
     const std::string path = "Loads/" + name;
     const auto body = [&](const std::string &entry, const std::string &value)
     { return bodies[body_index(path + "/" + entry, value)].get(); };
-    loads.push_back(
-        Registry<Load>::get(path + "/Type", prm.get("Type"))
-            .make({prm, path, name, body_pointers(), body, communicator}));
+    loads.push_back(Registry<Load>::get(path + "/Type", prm.get("Type"))
+                        .make({prm, path, name, body_pointers(), body,
+                               communicator, settings.end_time}));
     is_free = false;
   }
 }

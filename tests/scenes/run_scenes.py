@@ -1201,6 +1201,8 @@ class Scenes(unittest.TestCase):
                 ("Loads/blast/Faces=top", ("Loads/blast/Faces", "top", "+z")),
                 ("Loads/blast/Body=zona", ("Loads/blast/Body", "zone")),
                 ("Loads/blast/Expression=exp(", ("Expression", "formula")),
+                ("Loads/blast/Expression=sqrt(6e-6 - t)",
+                 ("Loads/blast/Expression", "t = 6.0", "end time")),
                 ("Loads/blast/Times=0 us, 1 us", ("Times", "no effect")),
                 ("Loads/pull/Factors=0, 1", ("Factors", "3 times")),
                 ("Loads/pull/Times=0 us, 8 us, 6 us", ("Times", "later")),
@@ -1220,6 +1222,18 @@ class Scenes(unittest.TestCase):
                      "Loads/push/Faces=-x")
         self.assertEqual(done.returncode, 1)
         self.assertIn("clamped", done.stdout)
+
+    def test_a_formula_that_is_no_number_during_the_run_is_named(self):
+        # A number at whole thousandths of the end time, where "check" looks.
+        formula = "sqrt(cos(2000*pi*t/12e-6))"
+        out = folder("no-number")
+        done = sabot("run", os.path.join(SOURCE, "tests/scenes/loads.prm"), "-o",
+                     out, "--quiet", "--set",
+                     "Loads/blast/Expression=" + formula, ranks=2)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        reason = result(out)["reason"]
+        for word in ("Loads/blast/Expression", formula, "t = "):
+            self.assertIn(word, reason)
 
     def test_a_scene_turned_by_a_right_angle_is_the_same(self):
         scene = os.path.join(SOURCE, "tests/scenes/turned.prm")

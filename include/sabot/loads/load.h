@@ -26,6 +26,7 @@ struct LoadRequest
   std::function<Body *(const std::string &entry, const std::string &value)>
       body;
   MPI_Comm communicator;
+  double end_time = 0.; // of the run [s], 0 where there is none
 };
 
 /**
