@@ -93,16 +93,9 @@ std::string read_text(const std::string &file, const std::string &included_at)
     read it. */
 void check_encoding(const std::string &origin, const std::string &text)
 {
-  const auto at = first_not_utf8(text);
-  if (!at)
-    return;
-  char byte[8];
-  std::snprintf(byte, sizeof(byte), "0x%02x",
-                static_cast<unsigned char>(text[*at]));
-  // Only what is before it can be shown.
-  fail(origin, "",
-       "the byte " + std::string(byte) + " after \"" + text.substr(0, *at) +
-           "\" is not UTF-8 (a letter in Latin-1?); save the file as UTF-8");
+  const std::string byte = byte_not_utf8(text);
+  if (!byte.empty())
+    fail(origin, "", byte + "; save the file as UTF-8");
 }
 
 /** The lines of @p file that say something. */

@@ -71,6 +71,25 @@ std::optional<std::size_t> first_not_utf8(const std::string &text)
   return std::nullopt;
 }
 
+std::string byte_not_utf8(const std::string &line)
+{
+  const auto at = first_not_utf8(line);
+  if (!at)
+    return "";
+  char byte[8];
+  std::snprintf(byte, sizeof(byte), "0x%02x",
+                static_cast<unsigned char>(line[*at]));
+  // Only what is before it can be shown.
+  constexpr std::size_t most = 60;
+  std::size_t first = *at > most ? *at - most : 0;
+  while (first < *at &&
+         (static_cast<unsigned char>(line[first]) & 0xc0) == 0x80)
+    ++first;
+  return "the byte " + std::string(byte) + " after \"" +
+         (first > 0 ? "..." : "") + line.substr(first, *at - first) +
+         "\" is not UTF-8 (a letter in Latin-1?)";
+}
+
 std::string replaced(std::string text, const std::string &part,
                      const std::string &other)
 {

@@ -126,6 +126,31 @@ TEST(Abaqus, includes_and_continued_lines)
   EXPECT_TRUE(has(refusal("loop.inp", "*Include, input=loop.inp\n"), "deeply"));
 }
 
+TEST(Abaqus, in_latin_1_is_told_by_line)
+{
+  // Größe and Stück, as a German Windows saves them.
+  const std::string names = "*Nset, nset=St\xfc"
+                            "ck\n1, 2\n";
+  const std::string message = refusal("latin.inp", "*Heading\n" + deck + names);
+  EXPECT_TRUE(has(message, "latin.inp\", line 39: the byte 0xfc after "
+                           "\"*Nset, nset=St\" is not UTF-8"))
+      << message;
+  EXPECT_TRUE(has(refusal("latin.inp", deck + "*Elset, elset=a\n1,\n"
+                                              "*Surface, name=s\nGr\xf6\xdf"
+                                              "e, S1\n"),
+                  "line 41: the byte 0xf6 after \"Gr\""));
+  // In comments and headings it does no harm; the first is told.
+  const NamedMesh made = read_text("latin.inp", "** Gr\xf6\xdf"
+                                                "e\n*Heading\nStu\xdf\n" +
+                                                    deck);
+  EXPECT_EQ(made.mesh.cells.size(), 8u);
+  EXPECT_TRUE(has(made.notes[0], "latin.inp\", line 1: the byte 0xf6 after "
+                                 "\"** Gr\" is not UTF-8"))
+      << made.notes[0];
+  for (std::size_t i = 1; i < made.notes.size(); ++i)
+    EXPECT_FALSE(has(made.notes[i], "UTF-8")) << made.notes[i];
+}
+
 TEST(Abaqus, says_which_line_is_wrong)
 {
   const std::string nodes = "*Node\n1, 0, 0, 0\n";
@@ -149,6 +174,8 @@ TEST(Abaqus, says_which_line_is_wrong)
                   "line 3: elements of type C3D4"));
   EXPECT_TRUE(has(bad(""), "it is empty"));
   // Bytes that are no characters come into no message.
-  EXPECT_TRUE(has(bad(nodes + "*Nset, nset=a\n\xE4\x01z\n"), "\"??z\""));
+  EXPECT_TRUE(has(bad(nodes + "*Nset, nset=a\n\x02\x01z\n"), "\"??z\""));
+  EXPECT_TRUE(has(bad(nodes + "*Nset, nset=a\n\x01\xE4z\n"),
+                  "line 4: the byte 0xe4 after \"?\""));
 }
 } // namespace

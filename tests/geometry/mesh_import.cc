@@ -37,6 +37,18 @@ TEST(MeshImport, gmsh_in_all_its_formats)
     }
 }
 
+TEST(MeshImport, a_name_of_gmsh_in_latin_1_is_told_by_line)
+{
+  std::string text = GmshText(2.2, false).str();
+  text.replace(text.find("struck"), 6,
+               "Fl\xe4"
+               "che");
+  const std::string message = refusal("latin.msh", text);
+  EXPECT_TRUE(has(message, "latin.msh\", line 7: the byte 0xe4 after \"\"Fl\" "
+                           "is not UTF-8"))
+      << message;
+}
+
 TEST(MeshImport, unknown_faces_and_parts_are_refused_with_the_known)
 {
   const std::string text = GmshText(2.2, false).str();

@@ -30,6 +30,9 @@ std::string formatted(const char *pattern, const double value);
     all are. Refuses overlong forms, surrogates and what is beyond U+10FFFF. */
 std::optional<std::size_t> first_not_utf8(const std::string &text);
 
+/** Which byte of @p line is not UTF-8, for messages; empty where all are. */
+std::string byte_not_utf8(const std::string &line);
+
 /** @p text with every @p part replaced by @p other. */
 std::string replaced(std::string text, const std::string &part,
                      const std::string &other);

@@ -46,10 +46,12 @@ class AbaqusDeck
 {
 public:
   /** Throws InputError for files that cannot be opened, includes of includes
-      beyond the eighth, and text before the first keyword. */
+      beyond the eighth, text before the first keyword, and keywords and data
+      that are not UTF-8; comments and headings may be anything. */
   explicit AbaqusDeck(const MeshFile &file);
 
   std::vector<AbaqusBlock> blocks;
+  std::vector<std::string> notes; // on text that is passed over
 
   /** The number @p i of the lines below a keyword, taken apart. */
   AbaqusRow row(const AbaqusBlock &block, const std::size_t i) const;
@@ -59,6 +61,10 @@ public:
 
 private:
   void read(const MeshFile &file, const int depth);
+  /** Refuses a line that is not UTF-8; where it @p is_passed_over, notes the
+      first of the file. */
+  void check_encoding(const MeshFile &file, const std::string_view line,
+                      const std::size_t number, const bool is_passed_over);
   /** Adds the keyword that the line begins; @p at is moved behind lines that
       continue it. */
   void add_keyword(std::string line, std::string_view text, std::size_t &at,
@@ -66,6 +72,7 @@ private:
 
   std::deque<std::string> texts; // what the blocks look into
   std::vector<MeshFile> files;
+  std::string noted; // file of the last note
 };
 
 /** Upper case, as Abaqus compares names. */

@@ -51,11 +51,16 @@ public:
   /** Goes behind the next @p mark that begins a line; refuses where there is
       none. */
   void skip_behind(const std::string &mark);
+  /** Refuses what line() or word() has just given where it is not UTF-8. */
+  void check_encoding(const std::string_view found) const;
   [[noreturn]] void refuse(const std::string &why) const;
 
   const MeshFile &file;
 
 private:
+  /** Of the word that was read last. */
+  std::size_t line_number() const;
+
   const std::string all;
   std::size_t at = 0;
 };

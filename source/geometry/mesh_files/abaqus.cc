@@ -273,6 +273,7 @@ private:
 
   void say()
   {
+    mesh.notes = deck.notes;
     if (!model.left_out.empty())
     {
       constexpr std::size_t most = 8;

@@ -77,6 +77,10 @@ void AbaqusDeck::read(const MeshFile &file, const int depth)
   {
     const std::string_view line = next_line(text, at);
     ++number;
+    check_encoding(file, line, number,
+                   is_comment(line) ||
+                       (line.substr(0, 1) != "*" && !blocks.empty() &&
+                        blocks.back().keyword == "HEADING"));
     if (line.empty() || is_comment(line))
       continue;
     if (line[0] != '*')
@@ -103,6 +107,28 @@ void AbaqusDeck::read(const MeshFile &file, const int depth)
   }
 }
 
+void AbaqusDeck::check_encoding(const MeshFile &file,
+                                const std::string_view line,
+                                const std::size_t number,
+                                const bool is_passed_over)
+{
+  if (std::none_of(line.begin(), line.end(),
+                   [](const char c)
+                   { return static_cast<unsigned char>(c) > 127; }))
+    return;
+  if (!is_passed_over)
+    return file.check_encoding(std::string(line), number);
+  const std::string byte =
+      noted == file.name ? "" : byte_not_utf8(std::string(line));
+  if (byte.empty())
+    return;
+  noted = file.name;
+  notes.push_back("\"" + file.name + "\", line " + std::to_string(number) +
+                  ": " + byte +
+                  "; it is passed over, as in all comments and "
+                  "headings");
+}
+
 void AbaqusDeck::add_keyword(std::string line, const std::string_view text,
                              std::size_t &at, std::size_t &number,
                              const std::size_t file_number)
@@ -114,6 +140,7 @@ void AbaqusDeck::add_keyword(std::string line, const std::string_view text,
   {
     const std::string_view more = next_line(text, at);
     ++number;
+    check_encoding(files[file_number], more, number, is_comment(more));
     if (!is_comment(more))
       line += more;
   }

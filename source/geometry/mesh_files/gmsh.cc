@@ -138,6 +138,7 @@ private:
       const std::string_view rest = text.line();
       if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"')
         text.refuse("the name of a physical group does not stand in quotes");
+      text.check_encoding(rest);
       name[{int(dimension), number}] =
           trim(std::string(rest.substr(1, rest.size() - 2)));
     }

@@ -104,6 +104,14 @@ void MeshFile::refuse(const std::string &why, const std::size_t line) const
                 ": " + printable(why));
 }
 
+void MeshFile::check_encoding(const std::string &line,
+                              const std::size_t number) const
+{
+  const std::string byte = byte_not_utf8(line);
+  if (!byte.empty())
+    refuse(byte + "; save the file as UTF-8", number);
+}
+
 std::string MeshFile::text() const
 {
   struct stat status = {};
@@ -201,10 +209,19 @@ void MeshText::skip_behind(const std::string &mark)
   refuse("the line " + mark + " is missing");
 }
 
+std::size_t MeshText::line_number() const
+{
+  const std::size_t end = at > 0 ? at - 1 : 0;
+  return 1 + std::count(all.begin(), all.begin() + end, '\n');
+}
+
+void MeshText::check_encoding(const std::string_view found) const
+{
+  file.check_encoding(std::string(found), line_number());
+}
+
 void MeshText::refuse(const std::string &why) const
 {
-  // The line of the word that was read last.
-  const std::size_t end = at > 0 ? at - 1 : 0;
-  file.refuse(why, 1 + std::count(all.begin(), all.begin() + end, '\n'));
+  file.refuse(why, line_number());
 }
 } // namespace sabot
