@@ -40,6 +40,14 @@ private:
 };
 
 /**
+ * HDF5 does not close its library when the program ends or MPI does: opened
+ * before anything else, it hears of neither. A damaged file that it refuses may
+ * stay open inside of it, and closing then ends in "infinite loop closing
+ * library". Nothing is lost, as whoever opens a file closes it (Hdf5Handle).
+ */
+inline const bool hdf5_is_left_at_end = H5dont_atexit() >= 0 && H5open() >= 0;
+
+/**
  * Silences HDF5's own error print-out while it lives: what went wrong the
  * caller says in its own words, with the file's name.
  * HDF5 keeps one such function per error stack, so objects may stand within
