@@ -53,7 +53,9 @@ void write_runs(const StudyResults &results, std::ostream &html)
        << head("status", true);
   for (std::size_t q = 0; q < study.quantities.size(); ++q)
     html << head(study.quantities[q].name + " [" + results.unit(q) + "]")
-         << head("error [%]");
+         << head(results.has_relative_error(q)
+                     ? "error [%]"
+                     : "difference [" + results.unit(q) + "]");
   html << head("CPU time [s]") << head("steps") << head("cells and particles")
        << head("energy residual [%]") << head("zone", true) << "</tr>\n";
   for (std::size_t run = 0; run < study.runs.size(); ++run)
@@ -73,7 +75,9 @@ void write_runs(const StudyResults &results, std::ostream &html)
     for (std::size_t q = 0; q < study.quantities.size(); ++q)
       html << cell(number(outcome.quantities[q]))
            << cell(outcome.is_complete()
-                       ? number(100. * results.error(run, q), "%.2f")
+                       ? results.has_relative_error(q)
+                             ? number(100. * results.error(run, q), "%.2f")
+                             : number(results.error(run, q))
                        : "–");
     html << cell(number(outcome.cpu_seconds, "%.1f"))
          << cell(number(outcome.steps, "%.0f"))

@@ -290,7 +290,19 @@ double StudyResults::error(const std::size_t run,
 {
   const double exact = references[quantity].value;
   return std::abs(outcomes[run].quantities[quantity] - exact) /
-         std::abs(exact != 0. ? exact : 1.);
+         (has_relative_error(quantity) ? std::abs(exact) : 1.);
+}
+
+std::string StudyResults::error_name(const std::size_t quantity) const
+{
+  return (has_relative_error(quantity) ? "relative error of "
+                                       : "difference of ") +
+         study.quantities[quantity].name;
+}
+
+std::string StudyResults::error_unit(const std::size_t quantity) const
+{
+  return has_relative_error(quantity) ? "1" : unit(quantity);
 }
 
 std::string StudyResults::label(const std::size_t run) const

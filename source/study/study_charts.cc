@@ -241,7 +241,10 @@ Chart cost_chart(const StudyResults &results, const std::size_t q)
   chart.title =
       "cost and error of " + name + " against " + results.references[q].origin;
   chart.x_label = "CPU time [s]";
-  chart.y_label = "relative error [%]";
+  const bool is_relative = results.has_relative_error(q);
+  const double factor = is_relative ? 100. : 1.;
+  chart.y_label = is_relative ? "relative error [%]"
+                              : "difference [" + results.unit(q) + "]";
   chart.is_x_logarithmic = true;
   Chart::Series all, front;
   all.label = "runs";
@@ -251,7 +254,7 @@ Chart cost_chart(const StudyResults &results, const std::size_t q)
     if (results.outcomes[run].is_complete())
     {
       all.x.push_back(results.outcomes[run].cpu_seconds);
-      all.y.push_back(100. * results.error(run, q));
+      all.y.push_back(factor * results.error(run, q));
       all.names.push_back(results.label(run));
     }
   front.label = "Pareto front:";
@@ -260,7 +263,7 @@ Chart cost_chart(const StudyResults &results, const std::size_t q)
   {
     front.label += (front.x.empty() ? " " : "; ") + results.label(run);
     front.x.push_back(results.outcomes[run].cpu_seconds);
-    front.y.push_back(100. * results.error(run, q));
+    front.y.push_back(factor * results.error(run, q));
     front.names.push_back(results.label(run));
   }
   chart.series = {all, front};

@@ -31,7 +31,10 @@ void write_csv(const StudyResults &results, const std::string &file)
     csv << "," << field(parameter.name);
   for (std::size_t q = 0; q < study.quantities.size(); ++q)
     csv << "," << field(study.quantities[q].name + " [" + results.unit(q) + "]")
-        << "," << field("relative error of " + study.quantities[q].name);
+        << ","
+        << field(results.error_name(q) + (results.has_relative_error(q)
+                                              ? ""
+                                              : " [" + results.unit(q) + "]"));
   csv << ",CPU time [s],wall time [s],steps,cells and particles,"
          "energy residual";
   const std::vector<std::string> parts = energy_parts(results);
@@ -88,7 +91,7 @@ void write_hdf5(const StudyResults &results, const std::string &file)
     {
       row.push_back(
           {study.quantities[q].name, results.unit(q), outcome.quantities[q]});
-      row.push_back({"relative error of " + study.quantities[q].name, "1",
+      row.push_back({results.error_name(q), results.error_unit(q),
                      results.error(run, q)});
     }
     row.push_back({"CPU time", "s", outcome.cpu_seconds});

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 namespace sabot
 {
@@ -90,6 +91,40 @@ TEST(Repeats, scatter_convergence_and_ballistic_curve)
     EXPECT_EQ(s.fit.n_perforating, 8u);
     EXPECT_NEAR(s.fit.limit, 150., 20.);
   }
+}
+
+TEST(Repeats, from_a_measured_zero_the_difference_counts)
+{
+  std::string asked = text;
+  asked.replace(asked.find("set Ballistic"), 0, "set Measured value = 0\n    ");
+  const StudyFile study(study_file(asked), {});
+  std::vector<StudyOutcome> outcomes(study.runs.size());
+  for (std::size_t run = 0; run < outcomes.size(); ++run)
+  {
+    outcomes[run].status = "completed";
+    outcomes[run].units = {"m/s"};
+    outcomes[run].quantities = {-2.5 - run};
+    outcomes[run].cpu_seconds = 1. + run;
+  }
+  const StudyResults results(study, outcomes);
+  EXPECT_FALSE(results.has_relative_error(0));
+  EXPECT_DOUBLE_EQ(results.error(1, 0), 3.5);
+  const std::string file =
+      std::filesystem::path(study_file(asked)).replace_filename("table");
+  const auto contents = [&]()
+  {
+    std::ifstream stream(file);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  const auto has = [&](const std::string &part)
+  { return contents().find(part) != std::string::npos; };
+  write_csv(results, file);
+  EXPECT_TRUE(has("difference of speed [m/s]"));
+  EXPECT_FALSE(has("relative"));
+  write_report(results, results.charts(), file);
+  EXPECT_TRUE(has("difference [m/s]"));
+  EXPECT_TRUE(has("<td>3.5</td>"));
+  EXPECT_FALSE(has("error [%]"));
 }
 
 TEST(Repeats, a_fit_needs_a_parameter_of_velocities)

@@ -105,9 +105,19 @@ struct StudyResults
   std::vector<std::vector<Price>> prices;     // per quantity
   std::vector<std::vector<std::size_t>> fronts; // per quantity: runs
 
-  /** |value - reference|/|reference|, or without division where the reference
-      is 0. */
+  /** |value - reference|/|reference|; of a reference of 0, to which nothing is
+      relative, |value - reference| in the quantity's unit. */
   double error(const std::size_t run, const std::size_t quantity) const;
+  /** Whether errors of a quantity are relative. */
+  bool has_relative_error(const std::size_t quantity) const
+  {
+    return references[quantity].value != 0.;
+  }
+  /** What error() is, for headings: "relative error of speed", "difference of
+      speed". */
+  std::string error_name(const std::size_t quantity) const;
+  /** Its unit in tables of numbers: "1", or the quantity's. */
+  std::string error_unit(const std::size_t quantity) const;
   /** The values of a run's parameters; where one is varied at a time, those
       that set it apart from the base, or "base". */
   std::string label(const std::size_t run) const;
