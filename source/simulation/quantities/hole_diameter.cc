@@ -8,12 +8,17 @@ namespace sabot
 {
 namespace
 {
-/** Distance of a point from the line through @p center along an axis [m]. */
-double distance_from_line(const Vec x, const std::array<double, 3> &center,
-                          const int axis)
+/** @p least, or the distance of a point from the line through @p center along
+    an axis [m] where that is less. */
+double nearer_to_line(const double least, const Vec x,
+                      const std::array<double, 3> &center, const int axis)
 {
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-  return std::hypot(x[b] - center[b], x[c] - center[c]);
+  const double to_b = x[b] - center[b], to_c = x[c] - center[c];
+  constexpr double round_off = 1e-12;
+  if (to_b * to_b + to_c * to_c > (1. + round_off) * least * least)
+    return least; // most points: without a root
+  return std::min(least, std::hypot(to_b, to_c));
 }
 
 /** Twice the least distance of a node of the body's main piece from the line:
@@ -34,18 +39,19 @@ public:
     GlobalIndex main = -1;
     if (pieces != nullptr)
     {
-      label = pieces->piece_labels();
       const std::vector<Fragment> all = pieces->connected_pieces();
       if (all.empty()) // a zone that has not found anything yet
         return 0.;
       main = all.front().label;
+      if (all.size() > 1)
+        label = pieces->piece_labels();
     }
     const NodalState &nodes = along.body.nodes();
-    double least = std::numeric_limits<double>::max();
+    constexpr double far = 1e100; // its square is a number
+    double least = far;
     for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      if (pieces == nullptr || label[i] == main)
-        least = std::min(
-            least, distance_from_line(nodes.position[i], center, along.axis()));
+      if (label.empty() || label[i] == main)
+        least = nearer_to_line(least, nodes.position[i], center, along.axis());
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, communicator);
     return 2. * least;
   }

@@ -47,6 +47,12 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
         const std::uint32_t a = root(i), c = root(bonds.neighbor[b]);
         parent[std::max(a, c)] = std::min(a, c);
       }
+  // Bonds across the border of the rank: what is within has been joined.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      if (bonds.neighbor[b] >= n && joins_pieces(failure, i, bonds.neighbor[b]))
+        border.push_back({i, bonds.neighbor[b]});
   // Owned numbers ascend, so a root bears the least number of its piece.
   std::vector<GlobalIndex> label(nodes.global_id);
   for (int changed = 1; changed != 0;)
@@ -55,14 +61,12 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
     for (std::size_t i = 0; i < n; ++i)
       label[i] = label[root(i)];
     exchange.update(label.data());
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-        if (joins_pieces(failure, i, bonds.neighbor[b]) &&
-            label[bonds.neighbor[b]] < label[root(i)])
-        {
-          label[root(i)] = label[bonds.neighbor[b]];
-          changed = 1;
-        }
+    for (const auto &[i, ghost] : border)
+      if (label[ghost] < label[root(i)])
+      {
+        label[root(i)] = label[ghost];
+        changed = 1;
+      }
     MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, communicator);
   }
   for (std::size_t i = 0; i < n; ++i)
@@ -123,9 +127,12 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      MPI_Comm communicator)
 {
   std::map<GlobalIndex, Sums> sums;
+  Sums *last = nullptr; // most particles are in the piece of the one before
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
-    Sums &s = sums[label[i]];
+    if (last == nullptr || label[i] != label[i - 1])
+      last = &sums[label[i]];
+    Sums &s = *last;
     ++s.n;
     s.mass.add(nodes.lumped_mass[i]);
     for (int d = 0; d < 3; ++d)
