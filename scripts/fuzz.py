@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Run `sabot check` on damaged scenes and mesh files, and see that it answers.
 
-fuzz.py [--program build/release/sabot] [--inputs 600] [--seed 1] [--jobs N]
-        [--first K] [--only scenes|meshes] [--keep DIR]
+fuzz.py [--program build/release/sabot] [--inputs 2000] [--seed 1] [--jobs N]
+        [--first K] [--only scenes|meshes] [--batch 50] [--runs 0.1] [--keep DIR]
 
 Takes scenes of prm and tests/scenes that are checked quickly, and mesh files of
 every format that is read, made here. Each input is one of these with a few
 mistakes: numbers that are too large, negative or no numbers, words, lines and
-bytes that are gone, doubled, swapped. Every tenth valid one is also run for a
-nanosecond. Input K of a seed is always the same.
+bytes that are gone, doubled, swapped; in scenes also entries of any value that
+they may have. One process checks a batch of them, since starting takes longer
+than checking; what it answers wrongly is checked again alone. A part of the
+valid ones is also run for a nanosecond. Input K of a seed is always the same.
 
 Wrong are: a signal, an exit code that is none of Sabot's, no answer in time, a
 report of a sanitizer, a refusal of more than a few lines, and one that names
@@ -16,297 +18,33 @@ neither the file nor an entry. Such inputs are kept, with the answer; exit code
 1 where there are some.
 """
 import argparse
-import base64
 import concurrent.futures
+import json
 import os
 import random
 import re
 import resource
+import select
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
+import time
+
+from fuzz_inputs import SCENE, meshes, mutate
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 EXIT_CODES = range(5)
 MOST_LINES, MOST_CHARACTERS = 8, 1500
-NUMBERS = [b"0", b"-1", b"1", b"2", b"7", b"1e300", b"-1e300", b"1e-300", b"nan",
-           b"inf", b"2000000000", b"-2147483648", b"4294967296",
-           b"9223372036854775807", b"18446744073709551616", b"1e", b"0x10", b"",
-           b"1 m", b"300 K", b"1e9 mm", b"0.001", b"1,2", b"text"]
-PIECES = [b"\x00", b"\xff", b"\xef\xbb\xbf", b"#", b"\\\n", b"end\n", b"\n",
-          b",", b"=", b"*", b"$", b"subsection x\n", b"include x.prm\n", b"\r\n",
-          b"\xe4", b'"', b"<", b"%n%s"]
-NUMBER = re.compile(rb"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
+MOST_ITEMS = 10000  # cells and particles of a scene
 
 
-# Meshes: a block of 2 x 2 x 2 cells in each format.
+def seconds_used(pid):
+    """Of the processor, by a process that has not been waited for."""
+    with open("/proc/%d/stat" % pid, "rb") as file:
+        fields = file.read().rpartition(b")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
-def block():
-    nodes = [(i, j, k) for k in range(3) for j in range(3) for i in range(3)]
-    cells = []
-    for k in range(2):
-        for j in range(2):
-            for i in range(2):
-                n = i + 3 * j + 9 * k
-                cells.append([n + d for d in (0, 1, 4, 3, 9, 10, 13, 12)])
-    return nodes, cells
-
-
-def abaqus():
-    nodes, cells = block()
-    text = "*Heading\n*Part, name=P\n*Node\n"
-    for n, x in enumerate(nodes, 1):
-        text += "%d, %g, %g, %g\n" % (n, *x)
-    text += "*Element, type=C3D8R, elset=all\n"
-    for n, cell in enumerate(cells, 1001):
-        text += "%d, %s\n" % (n, ", ".join(str(a + 1) for a in cell))
-    text += ("*Nset, nset=low, generate\n1, 9, 1\n*Elset, elset=up, generate\n"
-             "1005, 1008, 1\n*Surface, name=top\nup, S2\n"
-             "*Surface, type=NODE, name=tip\nlow, 1.\n"
-             "*Solid Section, elset=all, material=m\n,\n*End Part\n"
-             "*Assembly, name=A\n*Instance, name=P-1, part=P\n0., 0., 1.\n"
-             "0., 0., 0., 0., 0., 1., 30.\n*End Instance\n"
-             "*Instance, name=P-2, part=P\n9., 0., 0.\n*End Instance\n"
-             "*Nset, nset=far, instance=P-2\nlow\n*End Assembly\n"
-             "*Material, name=m\n*Elastic\n1., 0.3\n*Step\n*Element Output\nS\n"
-             "*End Step\n")
-    return text.encode()
-
-
-def gmsh(version, binary):
-    nodes, cells = block()
-    out = [b"$MeshFormat\n%s %d 8\n" % (version, binary)]
-
-    def put(form, *values):
-        if binary:
-            out.append(struct.pack("<" + form, *values))
-        else:
-            out.append((" ".join("%g" % v for v in values) + "\n").encode())
-
-    if binary:
-        put("i", 1)
-    out.append(b"\n$EndMeshFormat\n$PhysicalNames\n2\n2 11 \"struck face\"\n"
-               b"3 1 \"plate\"\n$EndPhysicalNames\n")
-    groups = [(2, 3, 5, [c[:4] for c in cells[:4]]), (3, 5, 1, cells)]
-    if version == b"2.2":
-        out.append(b"$Nodes\n27\n")
-        for n, x in enumerate(nodes, 1):
-            put("iddd", n, *x)
-        out.append(b"\n$EndNodes\n$Elements\n12\n")
-        number = 0
-        for dim, kind, tag, some in groups:
-            if binary:
-                put("iii", kind, len(some), 2)
-            for c in some:
-                number += 1
-                tags = (11 if dim == 2 else 1, tag)
-                corners = [a + 1 for a in c]
-                if binary:
-                    put("%di" % (3 + len(c)), number, *tags, *corners)
-                else:
-                    put("", number, kind, 2, *tags, *corners)
-    else:
-        out.append(b"$Entities\n")
-        put("QQQQ", 0, 0, 1, 1)
-        for dim, kind, tag, some in groups:
-            put("i6dQiQ", tag, 0, 0, 0, 2, 2, 2, 1, 11 if dim == 2 else 1, 0)
-        out.append(b"\n$EndEntities\n$Nodes\n")
-        put("QQQQ", 1, 27, 1, 27)
-        put("iiiQ", 3, 1, 0, 27)
-        for n in range(1, 28):
-            put("Q", n)
-        for x in nodes:
-            put("ddd", *x)
-        out.append(b"\n$EndNodes\n$Elements\n")
-        put("QQQQ", 2, 12, 1, 12)
-        number = 0
-        for dim, kind, tag, some in groups:
-            put("iiiQ", dim, tag, kind, len(some))
-            for c in some:
-                number += 1
-                put("%dQ" % (1 + len(c)), number, *[a + 1 for a in c])
-    out.append(b"\n$EndElements\n")
-    return b"".join(out)
-
-
-def vtk(version, binary):
-    nodes, cells = block()
-    out = [b"# vtk DataFile Version %s\nblock\n%s\nDATASET UNSTRUCTURED_GRID\n"
-           % (version, b"BINARY" if binary else b"ASCII")]
-
-    def put(form, values):
-        out.append(struct.pack(">%d%s" % (len(values), form), *values) if binary
-                   else " ".join("%g" % v for v in values).encode())
-        out.append(b"\n")
-
-    out.append(b"POINTS 27 double\n")
-    put("d", [c for x in nodes for c in x])
-    if version == b"5.1":
-        out.append(b"CELLS 9 64\nOFFSETS vtktypeint64\n")
-        put("q", range(0, 72, 8))
-        out.append(b"CONNECTIVITY vtktypeint64\n")
-        put("q", [a for c in cells for a in c])
-    else:
-        out.append(b"CELLS 8 72\n")
-        put("i", [a for c in cells for a in [8] + c])
-    out.append(b"CELL_TYPES 8\n")
-    put("i", [12] * 8)
-    out.append(b"CELL_DATA 8\nFIELD FieldData 1\nMaterialID 1 8 int\n")
-    put("i", [0] * 4 + [1] * 4)
-    return b"".join(out)
-
-
-def vtu(mode, packed):
-    nodes, cells = block()
-    arrays = [("Points", "Float64", 3, "d", [c for x in nodes for c in x]),
-              ("connectivity", "Int64", 1, "q", [a for c in cells for a in c]),
-              ("offsets", "Int64", 1, "q", list(range(8, 72, 8))),
-              ("types", "UInt8", 1, "B", [12] * 8),
-              ("MaterialID", "Int32", 1, "i", [0] * 4 + [1] * 4)]
-    appended, tags = b"_", {}
-    for name, kind, width, form, values in arrays:
-        data = struct.pack("<%d%s" % (len(values), form), *values)
-        if packed:
-            inner = zlib.compress(data)
-            head = struct.pack("<QQQQ", 1, len(data), 0, len(inner))
-        else:
-            inner, head = data, struct.pack("<Q", len(data))
-        tag = b'<DataArray type="%s" Name="%s" NumberOfComponents="%d" ' % (
-            kind.encode(), name.encode(), width)
-        if mode == "ascii":
-            body = b'format="ascii">' + " ".join(map(str, values)).encode()
-        elif mode == "binary":
-            body = b'format="binary">' + (
-                base64.b64encode(head) + base64.b64encode(inner) if packed
-                else base64.b64encode(head + inner))
-        else:
-            body = b'format="appended" offset="%d">' % (len(appended) - 1)
-            appended += head + inner
-        tags[name] = tag + body + b"</DataArray>\n"
-    tail = (b'<AppendedData encoding="raw">\n' + appended + b"\n</AppendedData>\n"
-            if mode == "appended" else b"")
-    return (b'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" '
-            b'version="1.0" byte_order="LittleEndian" header_type="UInt64"%s>\n'
-            b'<UnstructuredGrid>\n<Piece NumberOfPoints="27" NumberOfCells="8">\n'
-            b"<CellData>\n%s</CellData>\n<Points>\n%s</Points>\n<Cells>\n"
-            b"%s%s%s</Cells>\n</Piece>\n</UnstructuredGrid>\n%s</VTKFile>\n"
-            % (b' compressor="vtkZLibDataCompressor"' if packed else b"",
-               tags["MaterialID"], tags["Points"], tags["connectivity"],
-               tags["offsets"], tags["types"], tail))
-
-
-def meshes():
-    made = {"abaqus.inp": abaqus()}
-    for version in (b"2.2", b"4.1"):
-        for binary in (0, 1):
-            made["gmsh-%s-%d.msh" % (version.decode(), binary)] = gmsh(version,
-                                                                      binary)
-    for version in (b"3.0", b"5.1"):
-        for binary in (0, 1):
-            made["vtk-%s-%d.vtk" % (version.decode(), binary)] = vtk(version,
-                                                                    binary)
-    for mode in ("ascii", "binary", "appended"):
-        for packed in (0, 1):
-            if not (mode == "ascii" and packed):
-                made["vtu-%s-%d.vtu" % (mode, packed)] = vtu(mode, packed)
-    return made
-
-
-SCENE = b"""set End time = 1 us
-set List of bodies = part
-subsection Materials
-  subsection steel
-    set Density = 7830 kg/m^3
-    set Young's modulus = 206 GPa
-    set Poisson's ratio = 0.3
-  end
-end
-subsection Bodies
-  subsection part
-    set Geometry = file
-    set Discretization = %s
-    set Mesh file = %s
-    set Mesh unit = 1 mm
-    set Material = steel
-    set Clamped faces = %s
-  end
-end
-"""
-
-
-# Mistakes.
-
-def mutate(text, chance):
-    for _ in range(chance.choice((1, 1, 1, 2, 3, 5))):
-        text = MISTAKES[chance.randrange(len(MISTAKES))](text, chance)
-    return text
-
-
-def other_number(text, chance):
-    found = list(NUMBER.finditer(text))
-    if not found:
-        return text
-    at = chance.choice(found)
-    return text[:at.start()] + chance.choice(NUMBERS) + text[at.end():]
-
-
-def other_word(text, chance):
-    words = list(re.finditer(rb"\S+", text))
-    if not words:
-        return text
-    at = chance.choice(words)
-    return text[:at.start()] + chance.choice(words).group() + text[at.end():]
-
-
-def lines_moved(text, chance):
-    lines = text.split(b"\n")
-    a, b = chance.randrange(len(lines)), chance.randrange(len(lines))
-    kind = chance.randrange(4)
-    if kind == 0:
-        del lines[a]
-    elif kind == 1:
-        lines.insert(b, lines[a])
-    elif kind == 2:
-        lines[a], lines[b] = lines[b], lines[a]
-    else:
-        del lines[min(a, b):max(a, b)]
-    return b"\n".join(lines)
-
-
-def bytes_changed(text, chance):
-    out = bytearray(text)
-    for _ in range(chance.choice((1, 4, 16))):
-        if out:
-            out[chance.randrange(len(out))] = chance.randrange(256)
-    return bytes(out)
-
-
-def cut_off(text, chance):
-    return text[:chance.randrange(len(text) + 1)]
-
-
-def piece_put_in(text, chance):
-    at = chance.randrange(len(text) + 1)
-    return text[:at] + chance.choice(PIECES) + text[at:]
-
-
-def number_scaled(text, chance):
-    found = list(NUMBER.finditer(text))
-    if not found:
-        return text
-    at = chance.choice(found)
-    value = float(at.group()) * chance.choice((-1, 0.5, 2, 10, 1e3, 1e-3, 1e6))
-    return text[:at.start()] + (b"%g" % value) + text[at.end():]
-
-
-MISTAKES = [other_number, other_number, number_scaled, other_word, lines_moved,
-            lines_moved, bytes_changed, cut_off, piece_put_in]
-
-
-# Runs.
 
 class Fuzzer:
     def __init__(self, arguments, folder):
@@ -314,6 +52,7 @@ class Fuzzer:
         self.folder = folder
         self.meshes = meshes()
         self.scenes = []
+        self.declared = None  # entries of scenes
         self.environment = dict(
             os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
             OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0",
@@ -327,42 +66,63 @@ class Fuzzer:
             resource.setrlimit(resource.RLIMIT_AS, (size, size))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-    def call(self, words, where, timeout=None):
-        """Exit code (None: no answer in time) and what was said."""
-        log = os.path.join(where, "answer.txt")
-        with open(log, "wb") as out:
-            try:
-                code = subprocess.run(
-                    [self.arguments.program] + words, stdout=out, cwd=where,
-                    stdin=subprocess.DEVNULL, stderr=subprocess.STDOUT,
-                    env=self.environment, preexec_fn=self.limit,
-                    timeout=timeout or self.arguments.timeout).returncode
-            except subprocess.TimeoutExpired:
-                code = None
-        with open(log, "rb") as out:
-            return code, out.read().decode(errors="replace")
+    def begin(self, words, where):
+        return subprocess.Popen(
+            [self.arguments.program] + words, cwd=where, env=self.environment,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, preexec_fn=self.limit)
 
-    def find_scenes(self, seconds):
-        """Scenes that take so many seconds of the processor at most."""
+    def listen(self, process, timeout):
+        """What it says, and its exit code; None where it took longer than so
+        many seconds of the processor, or ten times as many of a busy machine,
+        without a word."""
+        said = bytearray()
+        used, began = 0., time.monotonic()
+        while True:
+            ready, _, _ = select.select([process.stdout], [], [], 0.5)
+            if ready:
+                piece = os.read(process.stdout.fileno(), 65536)
+                if not piece:
+                    break
+                said += piece
+                used, began = seconds_used(process.pid), time.monotonic()
+            elif (seconds_used(process.pid) - used > timeout
+                  or time.monotonic() - began > 10. * timeout):
+                process.kill()
+                process.communicate()
+                return None, said.decode(errors="replace")
+        process.stdout.close()
+        return process.wait(), said.decode(errors="replace")
+
+    def call(self, words, where, timeout=None):
+        return self.listen(self.begin(words, where),
+                           timeout or self.arguments.timeout)
+
+    def find_scenes(self):
+        """Valid scenes that are not large, always in the same order."""
+        files = []
         for top in ("prm", "tests/scenes"):
             for where, _, names in os.walk(os.path.join(self.folder, top)):
-                for name in sorted(names):
-                    file = os.path.join(where, name)
-                    text = open(file, "rb").read()
-                    if not name.endswith(".prm") or b"List of" not in text:
-                        continue
-                    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-                    code, _ = self.call(["check", file], self.folder,
-                                        4. * seconds)
-                    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-                    if (code == 0
-                            and after.ru_utime - before.ru_utime < seconds):
-                        self.scenes.append((file, text))
+                files += [os.path.join(where, name) for name in names
+                          if name.endswith(".prm")]
+        for file in sorted(files):
+            with open(file, "rb") as stream:
+                text = stream.read()
+            if b"List of" not in text and b"include" not in text:
+                continue
+            _, answer = self.call(["check", file], self.folder)
+            items = [int(n) for n in re.findall(r"\((\d+) [a-z]+\)",
+                                                answer.rpartition("valid:")[2])]
+            if "is valid:" in answer and sum(items) < MOST_ITEMS:
+                self.scenes.append((file, text))
+        self.declared = json.loads(subprocess.run(
+            [self.arguments.program, "parameters", "--format", "json"],
+            stdout=subprocess.PIPE, env=self.environment, check=True).stdout)
         if not self.scenes:
             sys.exit("no scene of prm and tests/scenes is valid")
 
-    def one(self, number):
-        """Kind of fault, or "" and what the answer was; and the answer."""
+    def make(self, number):
+        """Write input @p number: its folder and its scene."""
         chance = random.Random("%d/%d" % (self.arguments.seed, number))
         where = os.path.join(self.folder, "input-%d" % number)
         os.mkdir(where)
@@ -380,19 +140,55 @@ class Fuzzer:
                 text = re.sub(rb"    set Clamped.*\n", b"", text)
         else:
             file, original = chance.choice(self.scenes)
-            text = mutate(original, chance)
+            text = mutate(original, chance, self.declared)
             # Includes are looked up beside it.
             scene = os.path.join(os.path.dirname(file), "input-%d.prm" % number)
         with open(scene, "wb") as out:
             out.write(text)
-        words = ["check", scene]
-        code, answer = self.call(words, where)
-        kind = self.judge(code, answer)
-        if kind == "valid" and number % 10 == 0:
-            words = ["run", scene, "-o", os.path.join(where, "run"), "--set",
-                     "End time=1 ns"]
-            code, answer = self.call(words, where)
-            kind = self.judge(code, answer, True)
+        return where, scene, chance.random() < self.arguments.runs
+
+    def check_together(self, scenes):
+        """What one process says of each scene until it ends or takes too long,
+        and its exit code, None for the latter."""
+        code, text = self.call(["check"] + scenes, self.folder)
+        at = [text.find("checking %s\n" % scene) for scene in scenes]
+        at = at[:at.index(-1)] if -1 in at else at
+        return [text[a + len("checking \n") + len(scene):b] for a, b, scene
+                in zip(at, at[1:] + [len(text)], scenes)], code
+
+    def batch(self, numbers):
+        """Kind, command and answer of each input: kind of fault, or "valid" or
+        "refused"."""
+        inputs = [self.make(number) for number in numbers]
+        results = []
+        while len(results) < len(inputs):
+            rest = inputs[len(results):]
+            answers, code = self.check_together([scene for _, scene, _ in rest])
+            if not answers:
+                sys.exit("no answer to: check %s" % rest[0][1])
+            for (where, scene, is_run), answer in zip(rest, answers):
+                kind = self.judge(0 if "is valid:" in answer else 1, answer)
+                command = ["check", scene]
+                is_last = len(results) + 1 == len(inputs) - len(rest) + len(
+                    answers)
+                if (kind not in ("valid", "refused")
+                        or (is_last and code not in (0, 1))
+                        or (kind == "refused" and code not in (None, 1)
+                            and code > 1)):
+                    alone, answer = self.call(command, where)
+                    kind = self.judge(alone, answer)
+                if kind == "valid" and is_run:
+                    command = ["run", scene, "-o", os.path.join(where, "run"),
+                               "--set", "End time=1 ns"]
+                    alone, answer = self.call(command, where)
+                    kind = self.judge(alone, answer, True)
+                results.append((kind, " ".join(command), answer))
+        for number, (where, scene, _), (kind, _, _) in zip(numbers, inputs,
+                                                           results):
+            self.keep_or_remove(number, where, scene, kind)
+        return results
+
+    def keep_or_remove(self, number, where, scene, kind):
         if kind not in ("valid", "refused") and self.arguments.keep:
             kept = os.path.join(self.arguments.keep, "%s-%d" % (
                 kind.replace(" ", "-"), number))
@@ -403,7 +199,6 @@ class Fuzzer:
         if os.path.dirname(scene) != where:
             os.remove(scene)
         shutil.rmtree(where)
-        return kind, " ".join(words), answer
 
     @staticmethod
     def judge(code, answer, is_run=False):
@@ -431,12 +226,16 @@ def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("--program",
                         default=os.path.join(ROOT, "build/release/sabot"))
-    parser.add_argument("--inputs", type=int, default=600)
+    parser.add_argument("--inputs", type=int, default=2000)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--only", choices=("scenes", "meshes"))
-    parser.add_argument("--timeout", type=float, default=20.)
+    parser.add_argument("--batch", type=int, default=50)
+    parser.add_argument("--runs", type=float, default=0.1,
+                        help="share of the valid inputs that are also run")
+    parser.add_argument("--timeout", type=float, default=20.,
+                        help="seconds of the processor for each input")
     parser.add_argument("--memory", type=int, default=8, help="limit in GB")
     parser.add_argument("--keep", default="fuzz-findings")
     arguments = parser.parse_args()
@@ -447,16 +246,19 @@ def main():
     with tempfile.TemporaryDirectory(prefix="sabot-fuzz-") as folder:
         fuzzer = Fuzzer(arguments, folder)
         if arguments.only != "meshes":
-            fuzzer.find_scenes(8. if arguments.sanitized else 0.8)
+            fuzzer.find_scenes()
         print("%d scenes, %d meshes" % (len(fuzzer.scenes), len(fuzzer.meshes)))
-        numbers = range(arguments.first, arguments.first + arguments.inputs)
+        end = arguments.first + arguments.inputs
+        batches = [range(a, min(a + arguments.batch, end))
+                   for a in range(arguments.first, end, arguments.batch)]
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            for number, (kind, words, answer) in zip(
-                    numbers, pool.map(fuzzer.one, numbers)):
-                counts[kind] = counts.get(kind, 0) + 1
-                if kind not in ("valid", "refused"):
-                    print("input %d: %s: %s\n%s" % (number, kind, words,
-                                                    answer[-1000:]), flush=True)
+            for numbers, results in zip(batches,
+                                        pool.map(fuzzer.batch, batches)):
+                for number, (kind, command, answer) in zip(numbers, results):
+                    counts[kind] = counts.get(kind, 0) + 1
+                    if kind not in ("valid", "refused"):
+                        print("input %d: %s: %s\n%s" % (
+                            number, kind, command, answer[-1000:]), flush=True)
     print(", ".join("%s: %d" % item for item in sorted(counts.items())))
     bad = sum(n for kind, n in counts.items()
               if kind not in ("valid", "refused"))

@@ -24,6 +24,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -41,6 +42,7 @@ using namespace sabot;
 struct Arguments
 {
   std::string scene, folder = "results", format = "markdown";
+  std::vector<std::string> scenes; // to check
   std::vector<std::string> overrides;
   std::vector<std::string> words; // for sabot-verify
   std::string json_file;
@@ -110,9 +112,10 @@ ExitCode run_scene(const Arguments &arguments)
       });
 }
 
-ExitCode check_scene(const Arguments &arguments)
+ExitCode check_scene(const std::string &name,
+                     const std::vector<std::string> &overrides)
 {
-  const ParameterFile file(arguments.scene, arguments.overrides);
+  const ParameterFile file(name, overrides);
   return with_scene(file,
                     [&](Scene &scene)
                     {
@@ -125,7 +128,7 @@ ExitCode check_scene(const Arguments &arguments)
                         std::cout << "warning: " << warning << "\n";
                       for (const std::string &note : scene.notes)
                         std::cout << note << "\n";
-                      std::cout << arguments.scene << " is valid:";
+                      std::cout << name << " is valid:";
                       for (const auto &body : scene.bodies)
                         std::cout << " " << body->name << " ("
                                   << body->n_items() << " " << body->item_name()
@@ -133,6 +136,24 @@ ExitCode check_scene(const Arguments &arguments)
                       std::cout << std::endl;
                       return ExitCode::done;
                     });
+}
+
+/** Each with its own answer; of several scenes the largest exit code. */
+ExitCode check_scenes(const Arguments &arguments)
+{
+  if (arguments.scenes.size() == 1)
+    return check_scene(arguments.scenes[0], arguments.overrides);
+  int code = 0;
+  for (const std::string &name : arguments.scenes)
+  {
+    if (is_first_rank())
+      std::cout << "checking " << name << std::endl;
+    code = std::max(
+        code,
+        report_errors(true, [&]()
+                      { return check_scene(name, arguments.overrides); }));
+  }
+  return static_cast<ExitCode>(code);
 }
 
 ExitCode plan_scene(const Arguments &arguments)
@@ -228,11 +249,12 @@ void add_overrides(CLI::App &command, std::vector<std::string> &overrides,
   command.add_option("--set", overrides, meaning)->allow_extra_args(false);
 }
 
+const char *const override_meaning = "Replace an entry: \"Section/Name=value\"";
+
 void add_scene(CLI::App &command, Arguments &arguments)
 {
   command.add_option("scene", arguments.scene, "Scene file (.prm)")->required();
-  add_overrides(command, arguments.overrides,
-                "Replace an entry: \"Section/Name=value\"");
+  add_overrides(command, arguments.overrides, override_meaning);
 }
 
 void add_run(CLI::App &app, Arguments &arguments, Action &action)
@@ -265,9 +287,11 @@ void add_resume(CLI::App &app, Arguments &arguments, Action &action)
 void add_check(CLI::App &app, Arguments &arguments, Action &action)
 {
   CLI::App &command =
-      *app.add_subcommand("check", "Check a scene without running it");
-  add_scene(command, arguments);
-  command.callback([&]() { action = {check_scene}; });
+      *app.add_subcommand("check", "Check scenes without running them");
+  command.add_option("scenes", arguments.scenes, "Scene files (.prm)")
+      ->required();
+  add_overrides(command, arguments.overrides, override_meaning);
+  command.callback([&]() { action = {check_scenes}; });
 }
 
 void add_plan(CLI::App &app, Arguments &arguments, Action &action)
