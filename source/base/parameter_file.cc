@@ -4,6 +4,7 @@
 
 #include "sabot/base/declared_tree.h"
 #include "sabot/base/entry_aliases.h"
+#include "sabot/base/expected_value.h"
 #include "sabot/base/text.h"
 
 #include <nlohmann/json.hpp>
@@ -48,6 +49,33 @@ void find_entry(const ordered_json &tree, const std::string &name,
     else
       find_entry(item.value(), name,
                  path.empty() ? item.key() : path + "/" + item.key(), found);
+}
+
+/** Which other kind of subsection beside @p path has the entry @p name, in
+    words, by what @p declare_all declares of all kinds; "" for none. */
+std::string
+kind_with_entry(const std::function<void(Parameters &)> &declare_all,
+                const std::string &path, const std::string &name)
+{
+  Parameters all;
+  declare_all(all);
+  const ordered_json tree = declared_tree(all);
+  const std::string section = path.substr(0, path.find('/'));
+  std::vector<std::string> found;
+  if (tree.contains(section))
+    find_entry(tree[section], name, "", found);
+  if (found.empty())
+    return "";
+  // "<FEM file>" is a kind of body, "<name>" stands for all types.
+  const std::string kind = found[0].substr(0, found[0].find('/'));
+  const std::size_t blank = kind.find(' ');
+  if (found[0] != kind || kind.size() < 3)
+    return "";
+  return blank == std::string::npos
+             ? "another \"Type\""
+             : "\"Discretization = " + kind.substr(1, blank - 1) +
+                   "\" with \"Geometry = " +
+                   kind.substr(blank + 1, kind.size() - blank - 2) + "\"";
 }
 
 [[noreturn]] void fail(const std::string &origin, const std::string &path,
@@ -137,22 +165,6 @@ std::pair<std::string, std::string> assignment(const std::string &text)
                               trim(text.substr(equals + 1)));
 }
 
-/** What an entry that does not accept @p value does: @p pattern as deal.II
-    describes it; of a choice the words, and which was probably meant. */
-std::string expected(std::string pattern, const std::string &value)
-{
-  const std::string selection = "[Selection ";
-  if (pattern.compare(0, selection.size(), selection) == 0)
-  {
-    const std::vector<std::string> words = split(
-        pattern.substr(selection.size(), pattern.size() - selection.size() - 2),
-        '|');
-    return "one of " + join(words, ", ") + "; did you mean \"" +
-           nearest_name(value, words) + "\"?";
-  }
-  std::replace(pattern.begin(), pattern.end(), '|', ' ');
-  return pattern;
-}
 } // namespace
 
 ParameterFile::ParameterFile(const std::string &file,
@@ -319,7 +331,8 @@ std::string ParameterFile::origin(const std::string &path) const
   return file_name;
 }
 
-void ParameterFile::parse_into(Parameters &prm) const
+void ParameterFile::parse_into(
+    Parameters &prm, const std::function<void(Parameters &)> &declare_all) const
 {
   const ordered_json tree = declared_tree(prm);
   for (const Entry &entry : entries)
@@ -343,8 +356,14 @@ void ParameterFile::parse_into(Parameters &prm) const
         std::vector<std::string> elsewhere;
         if (last)
           find_entry(tree, wanted, "", elsewhere);
+        const std::string other =
+            last && elsewhere.empty() && declare_all && !above.empty()
+                ? kind_with_entry(declare_all, above, wanted)
+                : "";
         if (!elsewhere.empty())
           message += "; an entry of this name belongs to " + elsewhere[0];
+        else if (!other.empty())
+          message += "; an entry of this name is for " + other;
         else if (!allowed.empty())
           message +=
               "; did you mean \"" + nearest_name(wanted, allowed) + "\"?";
@@ -368,7 +387,8 @@ void ParameterFile::parse_into(Parameters &prm) const
     {
       fail(entry.origin, path,
            "\"" + path + "\" cannot be \"" + entry.value + "\": expected " +
-               expected(node->value("pattern_description", ""), entry.value));
+               expected_value(node->value("pattern_description", ""),
+                              entry.value));
     }
   }
 }

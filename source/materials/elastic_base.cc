@@ -5,6 +5,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/output_fields.h"
 #include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
 #include "sabot/materials/bulk_modulus.h"
 
 #include <cmath>
@@ -53,8 +54,9 @@ ElasticConstants ElasticConstants::parse(const Parameters &prm,
     throw InputError(path + "/Density",
                      "density " + prm.get("Density") + " and Young's modulus " +
                          prm.get("Young's modulus") +
-                         " give a sound speed of " + std::to_string(speed) +
-                         " m/s; expected 100 to 20000 m/s: check the units of "
+                         " give a sound speed of " +
+                         formatted("%.4g m/s", speed) +
+                         "; expected 100 to 20000 m/s: check the units of "
                          "both (a number alone is in kg/m^3 or Pa)");
   return c;
 }

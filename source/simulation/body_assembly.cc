@@ -10,6 +10,7 @@
 #include "sabot/geometry/mesh_layers.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sabot
 {
@@ -76,9 +77,23 @@ void BodyAssembly::find_carvings(const std::vector<std::string> &names)
                       path = "Bodies/" + name + "/Carve from";
     if (from.empty())
       continue;
-    if (std::find(names.begin(), names.end(), from) == names.end() ||
-        from == name)
-      throw_unknown_name(path, "body", from, names);
+    if (from == name)
+      throw InputError(path, "a body cannot be carved from itself; name the "
+                             "FEM body of which \"" +
+                                 name + "\" is a part");
+    if (std::find(names.begin(), names.end(), from) == names.end())
+    {
+      std::vector<std::string> others;
+      std::remove_copy(names.begin(), names.end(), std::back_inserter(others),
+                       name);
+      const std::vector<std::string> described = file.subsections("Bodies");
+      if (std::find(described.begin(), described.end(), from) !=
+          described.end())
+        throw InputError(path, "body \"" + from +
+                                   "\" is described but does not stand in "
+                                   "\"List of bodies\"; add it there");
+      throw_unknown_name(path, "body", from, others);
+    }
     for (const Carving &other : carvings)
       if (other.body == from)
         throw InputError(path, "body \"" + from + "\" already has the zone \"" +

@@ -20,7 +20,7 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
     : communicator(communicator)
 {
   declare(prm, &file);
-  file.parse_into(prm);
+  file.parse_into(prm, [](Parameters &all) { declare(all, nullptr); });
   check_names(prm);
   read_settings();
   build_materials(file);
@@ -70,10 +70,10 @@ void Scene::read_settings()
   settings.step_factor = get_quantity(prm, "Step factor");
   if (settings.step_factor > 1.)
     warnings.push_back("the step factor " + prm.get("Step factor") +
-                       " is above 1: steps are longer than the estimate of "
-                       "what is stable, and what goes wrong may go unnoticed, "
-                       "since the energy balance only sees what is not "
-                       "accounted for; results are not to be trusted");
+                       " is above 1: steps are longer than what is known to "
+                       "be stable; where a mesh does not bear them, its energy "
+                       "grows until the balance stops the run, which may take "
+                       "longer than the run does; compare with 0.9");
   settings.largest_step = get_quantity(prm, "Largest step");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
   settings.checkpoint_interval = get_quantity(prm, "Checkpoint interval");

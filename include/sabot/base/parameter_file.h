@@ -5,6 +5,7 @@
 #include "sabot/base/nearest_name.h"
 #include "sabot/base/parameters.h"
 
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <set>
@@ -61,8 +62,12 @@ public:
 
   /** Set in @p prm what the file sets. InputError, with file and line, the
       nearest name, and what is allowed there, for an entry that is not
-      declared or does not accept its value. */
-  void parse_into(Parameters &prm) const;
+      declared or does not accept its value. @p declare_all: declares the
+     entries of all kinds, so that one of another kind can be told from a
+     misspelled one. */
+  void
+  parse_into(Parameters &prm,
+             const std::function<void(Parameters &)> &declare_all = {}) const;
   /** Entries that go by a name of an earlier version (entry_aliases.h), one
       line for each name; lookups know the present names only. */
   const std::vector<std::string> &notes() const { return said; }

@@ -105,6 +105,14 @@ private:
     speed of sound: a unit is missing. */
 std::vector<std::string> doubtful_end_time(const Scene &scene);
 
+/** Values of single entries that can hardly be meant, each with its line: an
+    angle without unit of more than a turn, a coarsest cell finer than the
+    others, a sector whose cut faces are free, cells larger than their body, an
+    output after the end. */
+std::vector<std::string> slips_of_entries(const ParameterFile &file,
+                                          const std::vector<Outline> &outlines,
+                                          const Scene &scene);
+
 /** Adds to the warnings of the scene what all of these say. @p file: which
     contacts it describes, listed or not. */
 void warn_of_doubts(const ParameterFile &file,

@@ -1,0 +1,88 @@
+// What an entry expects, as messages say it of a value that it does not accept.
+#include "sabot/base/expected_value.h"
+
+#include "sabot/base/nearest_name.h"
+#include "sabot/base/parameters.h"
+#include "sabot/base/text.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace sabot
+{
+namespace
+{
+bool is_digit(const char c)
+{
+  return std::isdigit(static_cast<unsigned char>(c));
+}
+
+std::string lower_case(std::string text)
+{
+  for (char &c : text)
+    c = std::tolower(static_cast<unsigned char>(c));
+  return text;
+}
+
+/** deal.II's description of a pattern as a sentence goes on. */
+std::string in_words(const std::string &pattern)
+{
+  if (pattern == "[Bool]")
+    return "true or false";
+  const std::string range = "[Integer range ";
+  if (pattern.compare(0, range.size(), range) != 0)
+    return pattern;
+  const std::string bounds = pattern.substr(
+      range.size(), pattern.find(' ', range.size()) - range.size());
+  const std::size_t dots = bounds.find("...");
+  const std::string low = bounds.substr(0, dots),
+                    high = bounds.substr(dots + 3);
+  return "a whole number " + (high == "2147483647"
+                                  ? "of at least " + low
+                                  : "from " + low + " to " + high);
+}
+
+/** What to write instead of a value as people write it elsewhere. */
+std::string advice(const std::string &pattern, const std::string &value)
+{
+  const bool is_one = pattern.find("separated by commas") == std::string::npos;
+  const std::size_t comma = value.find(',');
+  if (is_one && comma != std::string::npos && comma > 0 &&
+      comma + 1 < value.size() && is_digit(value[comma - 1]) &&
+      is_digit(value[comma + 1]))
+    return "; write the decimals behind a point, as in " +
+           replaced(value, ",", ".");
+  const std::string word = value.substr(value.find_last_of(" ,") + 1),
+                    mark = "(units ";
+  const std::size_t units = pattern.find(mark);
+  if (units != std::string::npos && !word.empty() && !is_digit(word.back()))
+    for (const std::string &unit :
+         split(pattern.substr(units + mark.size(),
+                              pattern.find(';', units) - units - mark.size()),
+               ','))
+      if (unit != word && lower_case(unit) == lower_case(word))
+        return "; did you mean the unit " + unit + "?";
+  if (!value.empty() && value.back() == '%')
+    return "; write a share of 1, as in 0.3 for 30 %";
+  if (value.find_first_of("*/()^") != std::string::npos && is_digit(value[0]) &&
+      read_quantity(value.substr(0, value.find_first_of("*/()^ "))))
+    return "; formulas are not worked out, write the number";
+  return "";
+}
+} // namespace
+
+std::string expected_value(std::string pattern, const std::string &value)
+{
+  const std::string selection = "[Selection ";
+  if (pattern.compare(0, selection.size(), selection) == 0)
+  {
+    const std::vector<std::string> words = split(
+        pattern.substr(selection.size(), pattern.size() - selection.size() - 2),
+        '|');
+    return "one of " + join(words, ", ") + "; did you mean \"" +
+           nearest_name(value, words) + "\"?";
+  }
+  std::replace(pattern.begin(), pattern.end(), '|', ' ');
+  return in_words(pattern) + advice(pattern, value);
+}
+} // namespace sabot

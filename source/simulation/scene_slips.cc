@@ -1,0 +1,121 @@
+// Values of entries that are possible but can hardly be meant.
+#include "sabot/base/text.h"
+#include "sabot/simulation/scene_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+class Slips
+{
+public:
+  explicit Slips(const ParameterFile &file) : file(file) {}
+
+  /** Of an entry with a length, or the first of several; nothing where it is
+      not set, or is a word. */
+  std::optional<double> number(const std::string &path) const
+  {
+    const std::vector<std::string> parts = split(file.value(path, ""), ',');
+    return parts.empty() ? std::nullopt : read_quantity(parts[0]);
+  }
+
+  void say(const std::string &path, const std::string &what)
+  {
+    said.push_back(file.origin(path) + ": " + path + ": " + what);
+  }
+
+  void look_at_angle(const std::string &body)
+  {
+    const std::string path = "Bodies/" + body + "/Rotation angle",
+                      text = trim(file.value(path, "0"));
+    const double angle = read_quantity(text).value_or(0.);
+    const bool has_unit =
+        !text.empty() && std::isalpha(static_cast<unsigned char>(text.back()));
+    if (!has_unit && std::abs(angle) > 2. * M_PI)
+      say(path, text + " is " + formatted("%.3g turns", angle / (2. * M_PI)) +
+                    ": is the unit deg missing (a number alone is in rad)?");
+  }
+
+  void look_at_grading(const std::string &body)
+  {
+    const std::string path = "Bodies/" + body + "/Coarsest cell size";
+    const std::optional<double> fine = number("Bodies/" + body + "/Cell size"),
+                                coarse = number(path);
+    if (fine && coarse && *coarse < *fine * (1. - 1e-9))
+      say(path, file.value(path, "") + " is finer than the \"Cell size\" of " +
+                    formatted("%.4g mm", 1e3 * *fine) +
+                    "; cells grow from that to this");
+  }
+
+  /** The cut faces of a half or quarter want planes of symmetry. */
+  void look_at_sector(const std::string &body)
+  {
+    const std::string start = "Bodies/" + body + "/",
+                      sector = file.value(start + "Sector", "full");
+    if (sector == "full" ||
+        file.value(start + "Discretization", "FEM") == "rigid")
+      return;
+    const std::size_t needed = sector == "half" ? 1 : 2,
+                      n = split_names(file.value(start + "Symmetry faces", ""))
+                              .size();
+    if (n < needed)
+      say(start + "Sector",
+          sector + " leaves " + (n == 0 ? "its cut faces" : "a cut face") +
+              " free; name " + (needed == 1 ? "it" : "both") +
+              " in \"Symmetry faces\", or take the full body");
+  }
+
+  void look_at_size(const std::string &body, const Outline &outline)
+  {
+    for (const std::string entry : {"Cell size", "Nodal spacing"})
+    {
+      const std::string path = "Bodies/" + body + "/" + entry;
+      const std::optional<double> size = number(path);
+      const Vec extent = outline.high - outline.low;
+      const double least = std::min({extent[0], extent[1], extent[2]});
+      if (size && split(file.value(path, ""), ',').size() == 1 &&
+          *size > 1.1 * least)
+        say(path, file.value(path, "") + " is more than the body is across, " +
+                      formatted("%.4g mm", 1e3 * least) +
+                      ": what deforms takes several over its least extent");
+    }
+  }
+
+  void look_at_output(const std::string &name, const double end_time)
+  {
+    const std::string path = "Outputs/" + name + "/Interval";
+    const std::optional<double> interval = number(path);
+    if (interval && *interval > end_time)
+      say(path, file.value(path, "") +
+                    " is longer than the run (\"End time\" " +
+                    formatted("%.4g us", 1e6 * end_time) +
+                    "): only start and end are written");
+  }
+
+  std::vector<std::string> said;
+
+private:
+  const ParameterFile &file;
+};
+} // namespace
+
+std::vector<std::string> slips_of_entries(const ParameterFile &file,
+                                          const std::vector<Outline> &outlines,
+                                          const Scene &scene)
+{
+  Slips slips(file);
+  for (const auto &body : scene.bodies)
+  {
+    slips.look_at_angle(body->name);
+    slips.look_at_grading(body->name);
+    slips.look_at_sector(body->name);
+    slips.look_at_size(body->name, outlines[body->id]);
+  }
+  for (const std::string &name : split_names(file.value("List of outputs", "")))
+    slips.look_at_output(name, scene.settings.end_time);
+  return slips.said;
+}
+} // namespace sabot
