@@ -2,41 +2,10 @@
 #include "sabot/base/exact_sum.h"
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 
 namespace sabot
 {
-namespace
-{
-constexpr int unit_exponent = 80;
-constexpr double largest_term = 7e13; // half of the range of the sum
-} // namespace
-
-void ExactSum::add(const double value)
-{
-  if (!(std::abs(value) < largest_term))
-  {
-    ++n_invalid;
-    return;
-  }
-  // Mantissa and exponent by their bits: sums are made every step.
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof(bits));
-  const int exponent = static_cast<int>(bits >> 52 & 0x7ff);
-  if (exponent == 0) // zero, or far below the unit
-    return;
-  const std::uint64_t mantissa =
-      (bits & ((std::uint64_t(1) << 52) - 1)) | std::uint64_t(1) << 52;
-  const int shift = exponent - 1023 - 52 + unit_exponent;
-  if (shift <= -64)
-    return;
-  const Int128 magnitude = shift >= 0 ? static_cast<Int128>(mantissa) << shift
-                                      : static_cast<Int128>(mantissa >> -shift);
-  sum += bits >> 63 ? -magnitude : magnitude;
-}
-
 void ExactSum::add(const ExactSum &other)
 {
   sum += other.sum;

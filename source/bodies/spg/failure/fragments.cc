@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace sabot
 {
@@ -40,19 +41,22 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
       i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (bonds.neighbor[b] < n && joins_pieces(failure, i, bonds.neighbor[b]))
-      {
-        const std::uint32_t a = root(i), c = root(bonds.neighbor[b]);
-        parent[std::max(a, c)] = std::min(a, c);
-      }
-  // Bonds across the border of the rank: what is within has been joined.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (bonds.neighbor[b] >= n && joins_pieces(failure, i, bonds.neighbor[b]))
-        border.push_back({i, bonds.neighbor[b]});
+    {
+      const std::uint32_t j = bonds.neighbor[b];
+      // Most bonds are between two that are known to be of one piece.
+      if ((j < n && parent[i] == parent[j]) || !joins_pieces(failure, i, j))
+        continue;
+      if (j < n)
+      {
+        const std::uint32_t a = root(i), c = root(j);
+        parent[std::max(a, c)] = std::min(a, c);
+      }
+      else
+        border.push_back({i, j});
+    }
   // Owned numbers ascend, so a root bears the least number of its piece.
   std::vector<GlobalIndex> label(nodes.global_id);
   for (int changed = 1; changed != 0;)
