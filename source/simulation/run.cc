@@ -313,6 +313,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
                 status.c_str(), summary.steps, summary.time,
                 summary.wall_seconds, balance.largest_residual());
   log.line(text);
+  if (status != "failed")
+    describe_residual(balance.largest_residual(), scene.settings, log);
   describe_quality(scene, control_shares, balance.energy_scale(), log);
   for (const ZoneVerdict &zone : zones)
     log.line("  " + describe(zone));

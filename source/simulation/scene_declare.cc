@@ -19,12 +19,12 @@ void declare_top(Parameters &prm)
   prm.declare_entry("Title", "", any_text(), "What the scene shows; one line.");
   prm.declare_entry("End time", "0.1 ms", quantity(Dimension::time, 1e-12, 1e3),
                     "Physical time at which the run ends.");
-  prm.declare_knob("Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
-                   "Step over the least stable step of bodies and "
-                   "couplings, which is a safe estimate: most meshes bear a "
-                   "third more. Above 1, which a warning says, nothing "
-                   "vouches for it; what is unstable grows, and ends by the "
-                   "energy balance.");
+  prm.declare_knob(
+      "Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
+      "Step over the least stable step of bodies and couplings, an "
+      "estimate on the safe side. Above 1, which a warning says, "
+      "nothing vouches for it; what is unstable grows, and ends "
+      "by the energy balance.");
   prm.declare_knob("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
                    "Upper bound of the step.");
   prm.declare_entry("Energy residual limit", "0.05",

@@ -1223,6 +1223,17 @@ class Scenes(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("clamped", done.stdout)
 
+    def test_steps_that_are_too_long_are_told(self):
+        # Particles bear 1.1; beyond, what is unstable takes its time to grow.
+        for factor, code, is_said in ((1.1, 0, False), (1.5, 0, True),
+                                      (2., 2, False)):
+            out = folder("long-steps")
+            done = sabot("run", os.path.join(SOURCE, "tests/scenes/bar.prm"),
+                         "-o", out, "--set", "Step factor=%g" % factor)
+            self.assertEqual(done.returncode, code, done.stdout)
+            self.assertEqual("the energy balance is off by up to" in done.stdout,
+                             is_said, done.stdout)
+
     def test_a_formula_that_is_no_number_during_the_run_is_named(self):
         # A number at whole thousandths of the end time, where "check" looks.
         formula = "sqrt(cos(2000*pi*t/12e-6))"

@@ -15,6 +15,13 @@ namespace sabot
 void check_rigid_penetration(const Scene &scene);
 
 /**
+ * A warning to the log where the energy residual of a run, less than its
+ * limit, is beyond what steps that are stable leave: 0.5 %.
+ */
+void describe_residual(const double residual, const RunSettings &settings,
+                       Log &log);
+
+/**
  * To the log, at the end of a run, how far its answer is to be trusted: shares
  * of hourglass control and stabilization of each body, penetration of each
  * contact; warnings where they are large. @p energy_scale: most energy that
