@@ -76,7 +76,7 @@ public:
       const std::optional<double> size = number(path);
       const Vec extent = outline.high - outline.low;
       const double least = std::min({extent[0], extent[1], extent[2]});
-      if (size && split(file.value(path, ""), ',').size() == 1 &&
+      if (size && split(file.value(path, ""), ',').size() == 1 && least > 0. &&
           *size > 1.1 * least)
         say(path, file.value(path, "") + " is more than the body is across, " +
                       formatted("%.4g mm", 1e3 * least) +
