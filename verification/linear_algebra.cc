@@ -13,6 +13,13 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &K)
       .eigenvalues();
 }
 
+std::pair<Eigen::VectorXd, Eigen::MatrixXd>
+symmetric_modes(const Eigen::MatrixXd &K)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd &K,
                                 const Eigen::VectorXd &load)
 {

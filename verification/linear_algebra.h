@@ -11,6 +11,10 @@ namespace sabot
     read. */
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &K);
 
+/** The same with eigenvectors as columns. */
+std::pair<Eigen::VectorXd, Eigen::MatrixXd>
+symmetric_modes(const Eigen::MatrixXd &K);
+
 /** u of K u = @p load for a symmetric positive definite @p K, by Cholesky. */
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd &K,
                                 const Eigen::VectorXd &load);

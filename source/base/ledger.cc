@@ -5,7 +5,7 @@
 
 namespace sabot
 {
-const std::array<EnergyTerm, 13> energy_terms = {{
+const std::array<EnergyTerm, 14> energy_terms = {{
     {"kinetic", EnergyTerm::Role::part, "1/2 m v^2 of all nodes.",
      &EnergyLedger::kinetic},
     {"internal", EnergyTerm::Role::part,
@@ -51,6 +51,9 @@ const std::array<EnergyTerm, 13> energy_terms = {{
      "hourglass energy, and what means of stresses hold less than the "
      "stresses.",
      &EnergyLedger::conversion},
+    {"added mass", EnergyTerm::Role::supplied,
+     "Kinetic energy that mass scaling's added mass had when it came.",
+     &EnergyLedger::added_mass},
 }};
 
 ExactSum EnergyLedger::total() const

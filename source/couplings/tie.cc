@@ -1,6 +1,7 @@
 // Followers that move as weighted sums of leaders, from step to step.
 #include "sabot/couplings/tie.h"
 
+#include "sabot/base/added_mass.h"
 #include "sabot/base/error.h"
 #include "sabot/couplings/tie_conflicts.h"
 
@@ -61,6 +62,9 @@ void Tie::initialize()
     leads.inertia[term.local] += term.weight * mass[term.slot];
   for (const std::size_t i : owned_followers)
     followers.make_follower(i);
+  scales_masses = bodies[follower]->mass_scaling() != nullptr;
+  if (scales_masses)
+    handed_on.assign(owned_followers.size(), 0.);
 }
 
 void Tie::prepare_motion(const std::vector<Constraint> &constraints)
@@ -157,6 +161,8 @@ void Tie::add_forces(const double dt)
 
 void Tie::forward_changes()
 {
+  if (scales_masses)
+    hand_on_added_mass();
   const NodalState &followers = bodies[follower]->nodes();
   NodalState &leads = bodies[leader]->nodes();
   AlignedVector<Vec> change(follower_force.size());
@@ -167,6 +173,42 @@ void Tie::forward_changes()
     follower_force[s] += change[s];
   for (const Term &term : forces)
     leads.force[term.local] += term.weight * change[term.slot];
+}
+
+void Tie::hand_on_added_mass()
+{
+  const NodalState &followers = bodies[follower]->nodes();
+  NodalState &leads = bodies[leader]->nodes();
+  std::vector<double> more(follower_force.size());
+  for (std::size_t s = 0; s < owned_followers.size(); ++s)
+  {
+    const double now = followers.added_mass[owned_followers[s]];
+    more[s] = now - handed_on[s];
+    handed_on[s] = now;
+  }
+  force_exchange.update(more.data());
+  const VelocityConstraints *const held = bodies[leader]->prescribed();
+  int is_bad = 0;
+  for (const Term &term : forces)
+  {
+    if (!(more[term.slot] > 0.))
+      continue;
+    is_bad |= term.weight < 0.;
+    const double mass = term.weight * more[term.slot];
+    added_energy.add(energy_of_added_mass(
+        leads, term.local, held->held_at(term.local).first, mass, last_step));
+    leads.inertia[term.local] += mass;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &is_bad, 1, MPI_INT, MPI_MAX, communicator);
+  if (is_bad)
+    throw PhysicsError("tie \"" + name +
+                       "\": mass that \"Smallest step\" "
+                       "adds to body \"" +
+                       bodies[follower]->name +
+                       "\" at a node off the faces of body \"" +
+                       bodies[leader]->name +
+                       "\" would make nodes of that lighter; make the meshes "
+                       "meet, or set a smaller \"Smallest step\"");
 }
 
 void Tie::accumulate_work(const double half_dt)
@@ -187,6 +229,7 @@ void Tie::accumulate_work(const double half_dt)
 void Tie::add_energies(EnergyLedger &ledger) const
 {
   ledger.tie.subtract(work);
+  ledger.added_mass.add(added_energy);
 }
 
 void Tie::visit_state(StateVisitor &visitor)
@@ -195,6 +238,8 @@ void Tie::visit_state(StateVisitor &visitor)
   // Half of their work along the next step is still to be counted.
   visitor.visit_array("follower force", follower_force);
   visitor.visit_array("impulse", impulse);
+  visitor.visit_array("added mass handed on", handed_on);
+  visitor.visit_value("energy of added mass", added_energy);
 }
 
 std::vector<Resultant> Tie::resultants() const

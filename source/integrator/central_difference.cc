@@ -23,6 +23,7 @@ void CentralDifference::initialize()
 {
   impose_velocities(time);
   compute_forces(no_step);
+  hold_steps(0, false);
 }
 
 void CentralDifference::kick(const double dt)
@@ -76,6 +77,7 @@ void CentralDifference::advance(const double dt)
     }
   }
   time += dt;
+  last_step = dt;
   compute_forces(dt);
   {
     const auto timer = timers.scope("coupling work");
@@ -126,6 +128,13 @@ void CentralDifference::update_topology(const unsigned int step)
     changed |= body->update_topology(step, time);
   for (auto &coupling : couplings)
     changed |= coupling->change_bodies(step);
+  hold_steps(step, changed);
+}
+
+void CentralDifference::hold_steps(const unsigned int step, bool changed)
+{
+  for (auto &body : bodies)
+    changed |= body->hold_step(step, last_step);
   // The half step that starts now feels what there is now.
   if (changed)
     for (auto &coupling : couplings)

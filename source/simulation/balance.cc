@@ -107,7 +107,8 @@ double EnergyBalance::momentum_residual() const
   {
     const BodyMeasures m = body->measure();
     for (int d = 0; d < 3; ++d)
-      change[d] += m.mass * m.velocity[d] + m.eroded_momentum[d];
+      change[d] +=
+          m.mass * m.velocity[d] + m.eroded_momentum[d] + m.added_momentum[d];
   }
   return momentum_scale > 0.
              ? std::sqrt(change[0] * change[0] + change[1] * change[1] +

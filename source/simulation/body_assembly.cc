@@ -330,6 +330,16 @@ void BodyAssembly::refuse_with_growth(const Carving &carving) const
                            carving.zone +
                            "\"; remove the entry, or let that zone be fixed");
   }
+  for (const std::string &body : {carving.body, carving.zone})
+  {
+    const EnteredSubsection entered(prm, "Bodies", body);
+    if (prm.get("Smallest step") != "none")
+      throw InputError("Bodies/" + body + "/Smallest step",
+                       "adds mass to nodes, which cells that turn into "
+                       "particles would not hand on; remove the entry, or let "
+                       "the zone \"" +
+                           carving.zone + "\" be fixed");
+  }
   for (const std::string &load : file.subsections("Loads"))
   {
     const std::string body = trim(file.value("Loads/" + load + "/Body", ""));

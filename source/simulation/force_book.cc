@@ -14,7 +14,8 @@ std::array<double, 3> momentum(const std::vector<BodyMeasures> &bodies)
   std::array<double, 3> sum{};
   for (const BodyMeasures &m : bodies)
     for (int d = 0; d < 3; ++d)
-      sum[d] += m.mass * m.velocity[d] + m.eroded_momentum[d];
+      sum[d] +=
+          m.mass * m.velocity[d] + m.eroded_momentum[d] + m.added_momentum[d];
   return sum;
 }
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/text.h"
+#include "sabot/bodies/mass_scaling.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -97,6 +98,14 @@ void describe_quality(const Scene &scene, const ControlShares &shares,
                          "\"Hourglass control = stiffness\""
                        : ""));
   }
+  for (const auto &body : scene.bodies)
+    if (const MassScaling *const scaling = body->mass_scaling())
+    {
+      char text[64];
+      std::snprintf(text, sizeof(text), "%.4g kg, ", scaling->added_mass());
+      log.line("  mass scaling added " + (text + percent(scaling->share())) +
+               " of the mass of body \"" + body->name + "\"");
+    }
   for (const auto &coupling : scene.couplings)
     for (const Measure &m : coupling->measure())
       if (m.name == "penetration max over spacing" && m.value > 0.)

@@ -3,6 +3,7 @@
 #include "sabot/simulation/run_report.h"
 
 #include "sabot/base/program.h"
+#include "sabot/bodies/mass_scaling.h"
 #include "sabot/simulation/run.h"
 
 #include <algorithm>
@@ -78,6 +79,16 @@ std::string RunReport::energy_text() const
   return text + " J";
 }
 
+std::string RunReport::added_mass_text() const
+{
+  std::string text;
+  for (const auto &body : scene.bodies)
+    if (const MassScaling *const scaling = body->mass_scaling())
+      text += "; added mass of " + body->name +
+              format(" %.3g %%", 100. * scaling->share());
+  return text;
+}
+
 void RunReport::progress(const RunProgress &now)
 {
   if (log.wants_progress())
@@ -89,6 +100,6 @@ void RunReport::progress(const RunProgress &now)
     return;
   said_percent = percent;
   said_minute = minute;
-  log.record(progress_text(now) + "  " + energy_text());
+  log.record(progress_text(now) + "  " + energy_text() + added_mass_text());
 }
 } // namespace sabot

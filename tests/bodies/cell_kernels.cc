@@ -90,7 +90,7 @@ FemOptions options_with(const std::string &entry, const std::string &value)
   Parameters prm;
   FemOptions::declare_parameters(prm);
   EXPECT_TRUE(prm.set(entry, value)) << entry << " = " << value;
-  return FemOptions::parse(prm);
+  return FemOptions::parse(prm, "Bodies/b");
 }
 
 TEST(FemOptions, never_has_a_name_and_old_numbers_mean_it)

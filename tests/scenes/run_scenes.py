@@ -271,6 +271,82 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
+    def test_mass_scaling_on_1_2_and_3_ranks_and_resumed(self):
+        # Cells and particles that are tied, in contact, and fail, held at steps
+        # above what they have at the start or come to.
+        held = ("--quiet", "--set", "End time=5 us",
+                "--set", "Outputs/fields/Interval=5 us",
+                "--set", "Bodies/plate/Smallest step=0.1 us",
+                "--set", "Bodies/core/Smallest step=0.12 us",
+                "--set", "Bodies/projectile/Smallest step=0.1 us",
+                "--set", "Bodies/core/Largest added mass=0.3",
+                "--set", "Bodies/projectile/Largest added mass=0.3")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("held%d" % ranks)
+            done = sabot("run", QUICK, "-o", out, *held, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            for body in ("core", "projectile"):
+                self.assertGreater(r["bodies"][body]["added_mass_share"], 1e-4)
+            self.assertGreater(r["energy"]["added mass"], 0.)
+            self.assertLess(r["energy_residual_max"], 0.005)
+            self.assertLess(r["momentum_residual_max"], 1e-9)
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        parted = folder("held-parted")
+        done = sabot("run", QUICK, "-o", parted, *held, "--set",
+                     "Checkpoint interval in steps=%d" % (0.6 * r["steps"]),
+                     "--set", "Checkpoint at the end=false", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        os.remove(os.path.join(parted, "history.h5"))
+        done = sabot("resume", parted, "--quiet", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        with open(os.path.join(parted, "history.h5"), "rb") as file:
+            self.assertEqual(histories[0], file.read())
+        with open(os.path.join(parted, "log.txt")) as file:
+            self.assertIn("mass scaling added", file.read())
+
+    def test_a_thin_cell_is_held(self):
+        # One layer of a hundredth rules the step of all.
+        mesh = os.path.join(WORK, "thin.msh")
+        write_mesh(mesh, [(i, j, k) for i in range(12) for j in range(2)
+                          for k in range(2)],
+                   lambda i, j, k: (i if i <= 6 else i - 0.99, j, k))
+        scene = fem_bar(size=None, geometry="file", entry="Mesh file",
+                        value=mesh + "\n    set Mesh unit = 1 mm")
+        free, held = folder("thin-free"), folder("thin-held")
+        settings = ("--quiet", "--set", "End time=2 us")
+        hold = ("--set", "Bodies/block/Smallest step=20 ns")
+        done = sabot("run", scene, "-o", free, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = sabot("run", scene, "-o", held, *settings, *hold,
+                     "--set", "Bodies/block/Largest added mass=0.5")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertLess(result(held)["steps"], 0.2 * result(free)["steps"])
+        self.assertAlmostEqual(result(held)["stable_step_min"], 20e-9,
+                               delta=1e-16)
+        for name in ("energy_residual_max", "momentum_residual_max"):
+            self.assertLess(result(held)[name], 1e-10)
+        self.assertAlmostEqual(result(held)["quantities"]["speed"]["value"],
+                               10., delta=1e-9)
+        # The share of that layer is more than a hundredth.
+        refused = folder("thin-refused")
+        done = sabot("run", scene, "-o", refused, *settings, *hold)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertEqual(result(refused)["status"], "failed")
+        self.assertIn("Largest added mass", result(refused)["reason"])
+        for entry, text in (("Largest added mass=0.1", "nothing adds mass"),
+                            ("Inversion=shrink step", "whatever their mass"),
+                            ("Erosion step=30 ns", "has no effect")):
+            extra = () if "Largest" in entry else hold
+            done = sabot("check", scene, *extra,
+                         "--set", "Bodies/block/" + entry)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(text, done.stdout)
+
     def test_where_metal_fails_on_1_2_and_3_ranks(self):
         # Crumbled metal finds its neighbors anew; by damage, and by a strain that is
         # averaged over a length, resumed half-way.

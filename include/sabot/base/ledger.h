@@ -16,13 +16,14 @@ namespace sabot
  * and the manual are made.
  *
  * At one moment, not of a step: work terms are what has been summed up since
- * the start of the run. Kinetic energy is 1/2 m v^2 with lumped masses,
- * internal that of the stresses' work.
+ * the start of the run. Kinetic energy is 1/2 m v^2 with the masses that move:
+ * lumped ones and what mass scaling added; internal that of the stresses' work.
  */
 struct EnergyLedger
 {
   ExactSum kinetic, internal, stabilization, hourglass, contact, friction,
-      eroded, external, plastic_work, failure, rubble_friction, tie, conversion;
+      eroded, external, plastic_work, failure, rubble_friction, tie, conversion,
+      added_mass;
 
   /**
    * Sum of all parts less what was supplied from outside: constant but for the
@@ -64,7 +65,7 @@ struct EnergyTerm
 };
 
 /** Every term once, in the order of the history's columns. */
-extern const std::array<EnergyTerm, 13> energy_terms;
+extern const std::array<EnergyTerm, 14> energy_terms;
 
 template <typename Function>
 void EnergyLedger::for_each(const Function &f) const

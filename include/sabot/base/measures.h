@@ -46,7 +46,10 @@ struct BodyMeasures
   double control_energy = 0.;
   double eroded_mass = 0.;                 // [kg]
   std::array<double, 3> eroded_momentum{}; // [kg m/s]
-  double bonds_broken_fraction = 0.;       // of all bonds of the start
+  /** Momentum of what mass scaling added, less what that brought: it belongs to
+      the balance, but not to mass times velocity. */
+  std::array<double, 3> added_momentum{}; // [kg m/s]
+  double bonds_broken_fraction = 0.;      // of all bonds of the start
   /** What the kind of body knows besides, e.g. hourglass energy, largest
       plastic strain, broken bonds: more columns of the history. */
   Measures own;

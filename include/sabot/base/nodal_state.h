@@ -35,14 +35,22 @@ struct NodalState
       erosion. Adds up to the body's mass. */
   std::vector<double> lumped_mass; // [n_owned + n_ghost]
   /** Mass that the integrator divides by [kg]: the lumped mass, plus what tied
-      followers add; none for a follower, which the tie moves: ask
-      is_follower(). */
+      followers and mass scaling add; none for a follower, which the tie moves:
+      ask is_follower(). */
   std::vector<double> inertia; // [n_owned + n_ghost]
+  /** What mass scaling has added [kg], a follower's too; [n_owned], empty for
+      a body without. */
+  std::vector<double> added_mass;
 
   /** Whether a tie moves node @p i with its leaders; it has no inertia then. */
   bool is_follower(const std::size_t i) const { return !(inertia[i] > 0.); }
   /** Leave node @p i to a tie, which gives its mass to the leaders. */
   void make_follower(const std::size_t i) { inertia[i] = 0.; }
+  /** Mass by which forces move node @p i, a follower's if it were free [kg]. */
+  double moving_mass(const std::size_t i) const
+  {
+    return is_follower(i) ? lumped_mass[i] : inertia[i];
+  }
 
   /** n_owned + n_ghost. */
   std::size_t size() const { return global_id.size(); }

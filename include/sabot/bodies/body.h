@@ -20,6 +20,7 @@
 
 namespace sabot
 {
+class MassScaling;
 class VelocityConstraints;
 class CellSource;
 class ParticleSink;
@@ -290,6 +291,15 @@ public:
       holds the new part on return. Collective.
       @return whether it may have, the same on all ranks. */
   virtual bool update_topology(const unsigned int step, const double time) = 0;
+  /** Add inertia where items ask for less than the body's smallest step, after
+      the first forces and then after update_topology(); @p dt [s] is the step
+      just made, 0 at the start. Collective.
+      @return whether any was, the same on all ranks. Throws PhysicsError, on
+      all ranks, where it is more than the body may get. */
+  virtual bool hold_step(const unsigned int /*step*/, const double /*dt*/)
+  {
+    return false;
+  }
 
   /** Kinetic energy of the last half kick by itself, sum of m |dt f/(2 m)|^2/2
       over owned nodes that it moves [J]. What stands in the ledger is v at
@@ -339,6 +349,7 @@ public:
   virtual LoadView *loadable() { return nullptr; }
   virtual CellSource *cell_source() { return nullptr; }
   virtual ParticleSink *particle_sink() { return nullptr; }
+  virtual const MassScaling *mass_scaling() const { return nullptr; }
   /** Whether nodes move by their own forces, so that a tie may lead them; not
       those of a rigid body. */
   virtual bool moves_node_by_node() const { return true; }

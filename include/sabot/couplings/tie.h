@@ -94,6 +94,10 @@ private:
   std::pair<double, double>
   judge(const std::vector<Constraint> &constraints) const;
 
+  /** Leaders take over, w_a of it each, what mass scaling has added to
+      followers since the last time. PhysicsError, on all ranks, where a
+      negative weight would make one lighter. Collective. */
+  void hand_on_added_mass();
   /** Leaders of the followers that are owned here. Collective. */
   void prepare_motion(const std::vector<Constraint> &constraints);
   /** Followers of the leaders that are owned here. Collective. */
@@ -119,6 +123,10 @@ private:
   AlignedVector<Vec> start_velocity; // [m/s]
   AlignedVector<Vec> mid_velocity;   // in the middle of the last step [m/s]
   double last_step = 0.;             // [s], 0: none yet
+  /** Of owned followers, what mass scaling gave them and leaders have [kg]. */
+  std::vector<double> handed_on;
+  bool scales_masses = false; // of the follower body
+  ExactSum added_energy;      // that it had at the leaders [J]
 };
 } // namespace sabot
 

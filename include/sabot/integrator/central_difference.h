@@ -82,6 +82,10 @@ public:
   double time = 0.;
 
 private:
+  double last_step = 0.; // [s]
+  /** Inertia of bodies that hold a smallest step; couplings pass it on. @p
+      changed: whether they have forces to pass on, anyway. */
+  void hold_steps(const unsigned int step, bool changed);
   /** v += dt force/inertia of owned nodes. */
   void kick(const double dt);
   /** Bodies at the present time, loads for the stretch of time from there to

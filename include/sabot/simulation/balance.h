@@ -16,7 +16,8 @@ namespace sabot
  * outside has been taken off (EnergyLedger::total()), and the energy E_kick
  * that whole steps have over half ones (Body::add_kick_energy()), energy:   |E
  * - E_kick - E_0 + E_kick,0|/max over time of (sum |parts|, |supplied|),
- * momentum: |sum m v + p_eroded - p_0|/sum sqrt(2 E_kin m), both pure numbers.
+ * momentum: |sum m v + p_eroded + p_added - p_0|/sum sqrt(2 E_kin m), both pure
+ * numbers; p_added is the momentum that mass scaling's mass won since it came.
  * A bar that is driven from rest so counts against the work put in. Where
  * nothing moves, energies count against those of a motion of 1e-10 of the speed
  * of sound, so that round-off is none.

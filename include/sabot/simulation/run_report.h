@@ -50,6 +50,8 @@ private:
   std::string progress_text(const RunProgress &now) const;
   /** Energies of the last row that are not zero [J]. */
   std::string energy_text() const;
+  /** Of bodies that hold a smallest step; empty without. */
+  std::string added_mass_text() const;
 
   const Scene &scene;
   const EnergyBalance &balance;

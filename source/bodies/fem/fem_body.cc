@@ -3,6 +3,7 @@
 
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body_report.h"
+#include "sabot/bodies/fem/fem_mass_scaling.h"
 
 #include <algorithm>
 
@@ -11,8 +12,9 @@ namespace sabot
 FemBody::FemBody(const std::string &name, const int id, HexMesh mesh,
                  std::shared_ptr<const Material> material,
                  const FemOptions &options)
-    : Body(name, id), mesh(std::move(mesh)), material(std::move(material)),
-      options(options), n_global_cells(this->mesh.cells.size()),
+    : ScaledBody(name, id), mesh(std::move(mesh)),
+      material(std::move(material)), options(options),
+      n_global_cells(this->mesh.cells.size()),
       cells(Registry<Hexahedra>::get("Bodies/" + name + "/Integration",
                                      options.integration)
                 .make(name, options, this->material)),
@@ -98,6 +100,10 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   if (conversion.is_on())
     conversion.set_up(nodes_of_faces(mesh, options.driven_boundary_ids));
   mesh = HexMesh();
+  if (options.mass_scaling.is_on())
+    scaling = std::make_unique<FemMassScaling>(
+        options.mass_scaling, name, nodal_state, constraints, *cells,
+        material->density(), communicator);
   if (options.conducts_heat)
   {
     std::vector<double> capacity = cells->volume;
@@ -180,6 +186,7 @@ void FemBody::add_energies(EnergyLedger &ledger) const
              norm_square(nodal_state.velocity[i]));
   ledger.external.add(constraints.work());
   conversion.add_energies(ledger);
+  add_scaling(ledger);
   if (erosion)
     erosion->add_energies(ledger);
   for (std::size_t e = 0; e < cells->size(); ++e)
@@ -220,6 +227,7 @@ BodyMeasures FemBody::measure() const
     measures.own.push_back({"temperature max", "K", top[1]});
   if (erosion)
     erosion->add_measures(measures);
+  add_scaling(measures);
   return measures;
 }
 
@@ -346,6 +354,7 @@ void FemBody::visit_state(StateVisitor &visitor)
     conversion.visit_state(visitor);
   }
   cells->visit_state(visitor);
+  visit_scaling(visitor);
   if (heat)
   {
     heat->visit_state(visitor);

@@ -55,7 +55,7 @@ public:
     const Parameters &prm = request.prm;
     NamedMesh made = request.cells ? std::move(*request.cells)
                                    : request.mesh(cell_size(prm));
-    FemOptions options = FemOptions::parse(prm);
+    FemOptions options = FemOptions::parse(prm, request.path);
     options.initial_velocity = request.initial_velocity;
     options.cell_size = request.shape.follows_cell_size()
                             ? cell_size(prm)

@@ -1,6 +1,7 @@
 // What a scene may say about a body of finite elements.
 #include "sabot/bodies/fem/fem_options.h"
 
+#include "sabot/base/error.h"
 #include "sabot/base/parameters.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/fem/one_point.h"
@@ -58,9 +59,10 @@ void FemOptions::declare_parameters(Parameters &prm)
                    "What to do when a cell is about to turn inside out: stop "
                    "the run, erode the cell, or (shrink step) let no step "
                    "take more than a quarter of a cell's volume.");
+  MassScalingOptions::declare_parameters(prm);
 }
 
-FemOptions FemOptions::parse(const Parameters &prm)
+FemOptions FemOptions::parse(const Parameters &prm, const std::string &path)
 {
   FemOptions o;
   o.integration = prm.get("Integration");
@@ -82,6 +84,20 @@ FemOptions FemOptions::parse(const Parameters &prm)
   o.inversion = inversion == "erode"  ? Inversion::erode
                 : inversion == "stop" ? Inversion::stop
                                       : Inversion::shrink;
+  o.mass_scaling = MassScalingOptions::parse(prm, path);
+  if (o.mass_scaling.is_on() && o.inversion == Inversion::shrink)
+    throw InputError(
+        path + "/Smallest step",
+        "cannot be kept with \"Inversion = shrink step\", by which "
+        "steps follow the volumes of cells, whatever their mass; "
+        "use stop or erode");
+  if (o.mass_scaling.is_on() && o.erosion_step >= o.mass_scaling.smallest_step)
+    throw InputError(path + "/Smallest step",
+                     "has no effect: cells that need mass for it are eroded by "
+                     "\"Erosion step\" = " +
+                         prm.get("Erosion step") +
+                         "; remove one of the two, or erode below a shorter "
+                         "step");
   return o;
 }
 

@@ -42,7 +42,9 @@ void Hexahedra::allocate_points()
   if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
     polar_rotation.assign(points.stride(), Mat::identity());
   hourglass_energy.assign(round_up(size(), padding), 0.);
-  if (options.erosion_step > 0.)
+  if (options.mass_scaling.is_on())
+    added_share.assign(size(), 0.);
+  if (options.keeps_steps())
     cell_step.assign(size(), std::numeric_limits<double>::max());
 }
 
@@ -59,6 +61,8 @@ void Hexahedra::keep_points(const std::vector<std::size_t> &kept)
   cells(volume);
   if (!cell_step.empty())
     cells(cell_step);
+  if (!added_share.empty())
+    cells(added_share);
   for (std::size_t e = 0; e < kept.size(); ++e)
     hourglass_energy[e] = hourglass_energy[kept[e]];
   hourglass_energy.resize(round_up(kept.size(), padding));
@@ -260,6 +264,7 @@ void Hexahedra::visit_state(StateVisitor &visitor)
   points.visit_state(visitor);
   visitor.visit_array("polar rotation", polar_rotation);
   visitor.visit_array("hourglass energy", hourglass_energy);
+  visitor.visit_array("added share", added_share);
   visitor.visit_value("stable step", smallest_step.dt);
   visitor.visit_value("stable step item", smallest_step.item);
 }

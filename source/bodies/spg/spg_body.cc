@@ -5,6 +5,7 @@
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/neighbor_search.h"
+#include "sabot/bodies/spg/spg_mass_scaling.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -14,7 +15,7 @@ namespace sabot
 SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                  std::shared_ptr<const Material> material,
                  const SpgOptions &options)
-    : Body(name, id), cloud(std::move(cloud)), options(options),
+    : ScaledBody(name, id), cloud(std::move(cloud)), options(options),
       n_global(options.grows ? 0 : this->cloud.position.size()),
       points(std::move(material)), kernel(options, this->cloud),
       approximation(options), surface(this->cloud, options, "Bodies/" + name),
@@ -125,6 +126,9 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   failure.judge(approximation.lost_direction, *residual_strength);
   if (options.stores_gradients())
     approximation.set_convex_masses(nodal_state, bonds, node_exchange);
+  if (options.mass_scaling.is_on())
+    scaling = std::make_unique<SpgMassScaling>(
+        options.mass_scaling, parts, stable, *stabilization, communicator);
   stable.estimate(parts, *stabilization);
   if (n_global > 1)
     stable.calibrate(parts, *stabilization, 0, true, communicator);
@@ -169,6 +173,7 @@ void SpgBody::compute_forces(const double /*time*/, const double dt)
   const std::size_t n = watch.n_updates;
   watch = StepWatch();
   watch.n_updates = n;
+  std::fill(fields.own_step.begin(), fields.own_step.end(), watch.stable_step);
   evaluate_forces(dt);
   // Only now: the other ranks wait for the exchanges of the loop.
   if (!watch.problem.empty())

@@ -108,6 +108,7 @@ void SpgOptions::declare_parameters(Parameters &prm)
   prm.declare_knob("Quadratic bulk viscosity", "1.5",
                    quantity(Dimension::none, 0., 10.),
                    "Coefficient of rho h^2 (div v)^2 in compression.");
+  MassScalingOptions::declare_parameters(prm);
   prm.declare_entry("Heat conduction", "false", boolean(),
                     "Implicit conduction between bonded particles, surfaces "
                     "and cracks insulated. Needs a law with temperature and "
@@ -184,6 +185,7 @@ SpgOptions SpgOptions::parse(const Parameters &prm, const std::string &path)
   o.stabilization = chosen<Stabilization>(prm, path, "Stabilization");
   o.bulk_viscosity_linear = get_quantity(prm, "Linear bulk viscosity");
   o.bulk_viscosity_quadratic = get_quantity(prm, "Quadratic bulk viscosity");
+  o.mass_scaling = MassScalingOptions::parse(prm, path);
   o.conducts_heat = prm.get_bool("Heat conduction");
   o.conduction_interval = get_quantity(prm, "Conduction interval");
   if (!o.stores_gradients() && o.stabilization()->needs_second_derivatives())

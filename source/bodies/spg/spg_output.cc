@@ -21,6 +21,7 @@ void SpgBody::add_energies(EnergyLedger &ledger) const
     ledger.plastic_work.add(points.plastic_work[i]);
     ledger.failure.add(failure.loss[i]);
   }
+  add_scaling(ledger);
   for (const double work : failure.friction_work)
     ledger.rubble_friction.add(work);
 }
@@ -70,6 +71,7 @@ BodyMeasures SpgBody::measure() const
     measures.own.push_back({"approximation fallbacks", "1", fallbacks.value()});
   if (points.has_state("temperature"))
     measures.own.push_back({"temperature max", "K", top[1]});
+  add_scaling(measures);
   return measures;
 }
 
@@ -265,5 +267,6 @@ void SpgBody::visit_state(StateVisitor &visitor)
   if (intake && visitor.is_restoring())
     heat.set_up(parts, failure, communicator);
   heat.visit_state(visitor);
+  visit_scaling(visitor);
 }
 } // namespace sabot

@@ -23,10 +23,17 @@ namespace sabot
 {
 namespace
 {
-/** Mass by which a node's force moves it: a tied follower has its own. */
-double moving_mass(const NodalState &nodes, const std::size_t i)
+/** Masses by which forces move the owned nodes; a tied follower's are its own,
+    of which mass scaling's part moves with the leaders, too. */
+std::vector<double> moving_masses(const NodalState &nodes)
 {
-  return nodes.is_follower(i) ? nodes.lumped_mass[i] : nodes.inertia[i];
+  std::vector<double> masses(nodes.n_owned);
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    masses[i] = nodes.moving_mass(i);
+  for (std::size_t i = 0; i < nodes.added_mass.size(); ++i)
+    if (nodes.is_follower(i))
+      masses[i] += nodes.added_mass[i];
+  return masses;
 }
 
 /** Sums over J of V_J sum |g_J| |g_JI|: rows of K over rho c^2 [1/m]. */
@@ -89,12 +96,12 @@ void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form)
   const Material &law = body.points.law();
   const double c = law.sound_speed(), modulus = law.density() * c * c;
   const std::vector<double> rows = gradient_row_sums(body);
+  const std::vector<double> mass = moving_masses(nodes);
   std::vector<double> springs(nodes.n_owned, 0.);
   form.add_row_sums(body, springs);
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
-    const double omega_square =
-        (modulus * rows[i] + springs[i]) / moving_mass(nodes, i);
+    const double omega_square = (modulus * rows[i] + springs[i]) / mass[i];
     step[i] = (!body.failure.has_cracks(i) ? factor : 1.) *
               (omega_square > 0. ? 2. / std::sqrt(omega_square)
                                  : 2. * body.kernel.local_spacing(i) / c);
@@ -169,9 +176,10 @@ namespace
 void start_lanczos(const NodalState &nodes, AlignedVector<Vec> &now,
                    std::vector<double> &root)
 {
+  const std::vector<double> mass = moving_masses(nodes);
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
-    root[i] = 1. / std::sqrt(moving_mass(nodes, i));
+    root[i] = 1. / std::sqrt(mass[i]);
     std::uint64_t bits = 0x9e3779b97f4a7c15u * (nodes.global_id[i] + 1);
     for (int d = 0; d < 3; ++d)
     {

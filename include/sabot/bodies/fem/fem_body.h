@@ -3,13 +3,13 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
-#include "sabot/bodies/body.h"
 #include "sabot/bodies/fem/fem_boundary.h"
 #include "sabot/bodies/fem/fem_conversion.h"
 #include "sabot/bodies/fem/fem_erosion.h"
 #include "sabot/bodies/fem/heat_conduction.h"
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/bodies/fem/living_cells.h"
+#include "sabot/bodies/scaled_body.h"
 #include "sabot/bodies/velocity_constraints.h"
 #include "sabot/geometry/hex_mesh.h"
 #include "sabot/geometry/local_part.h"
@@ -36,7 +36,7 @@ namespace sabot
  * reported by one. Sums over ranks are exact (ExactSum), so reports are the
  * same for every number of ranks.
  */
-class FemBody : public Body, public FaceView
+class FemBody : public ScaledBody, public FaceView
 {
 public:
   /** @p mesh and @p material are complete; nothing is collective. Throws

@@ -1,6 +1,8 @@
 #ifndef sabot_bodies_fem_fem_options_h
 #define sabot_bodies_fem_fem_options_h
 
+#include "sabot/bodies/mass_scaling.h"
+
 #include <array>
 #include <optional>
 #include <string>
@@ -69,6 +71,7 @@ struct FemOptions
     shrink // no step may take more than a quarter of a cell's volume
   };
   Inversion inversion = Inversion::stop;
+  MassScalingOptions mass_scaling;
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]
   double cell_size = 0.; // that the mesh was asked for [m]
   /** Faces held fixed, faces in planes of symmetry, faces that are driven.
@@ -91,11 +94,16 @@ struct FemOptions
       the step, which is no state of the law. */
   std::vector<ErosionLimit> erosion_limits() const;
 
-  /** The entries of the body's subsection, and their values. Neither knows
+  /** Whether the step of each cell is kept, not just the least. */
+  bool keeps_steps() const { return erosion_step > 0. || mass_scaling.is_on(); }
+
+  /** The entries of the body's subsection, and their values; @p path: of the
+      body, for messages. Throws InputError for entries that do not fit
+      together. Neither knows
       of boundary ids and velocities, which are the body's. Values of 1e10
       and more in old files mean never. */
   static void declare_parameters(Parameters &prm);
-  static FemOptions parse(const Parameters &prm);
+  static FemOptions parse(const Parameters &prm, const std::string &path);
 };
 } // namespace sabot
 

@@ -140,9 +140,12 @@ public:
       global number of the cell; of all cells here, those of other ranks'
       nodes included. */
   StableStep smallest_step;
-  /** Step of each cell [size()] [s], empty unless erosion or conversion by
-      the step is asked for. */
+  /** Step of each cell by itself [size()] [s], empty unless erosion or
+      conversion by the step, or mass scaling, asks for it. */
   std::vector<double> cell_step;
+  /** Mass that mass scaling has added to each cell, over its own; [size()],
+      empty without. */
+  std::vector<double> added_share;
   /** Local numbers, perhaps repeated, of cells that the option erode
       condemns; FemErosion empties it. */
   std::vector<std::size_t> inverting; // cells seen by avoid_inversion()

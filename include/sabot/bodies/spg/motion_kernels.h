@@ -215,6 +215,7 @@ inline void follow_motion(const ParticleRange &range, const MotionViews &in,
       step /=
           1. + (rate < 0. ? in.linear_viscosity : 0.) + h * l_norm / (c * dt);
     }
+    out.step[k] = step;
     watch_particle(in, i, step, J, compression, largest_stretch_square(F),
                    watch);
   }

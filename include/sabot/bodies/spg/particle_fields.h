@@ -50,6 +50,9 @@ struct ParticleFields
       stiffens. */
   std::vector<double> stiffening;
   AlignedVector<Vec> own_force; // [N], without what couplings added
+  /** Stable step of each particle, the least of the evaluations since the last
+      step; empty unless mass scaling asks for it [s]. */
+  std::vector<double> own_step;
 
   /** Undeformed particles with these volumes [m^3]. [n_owned]; F_inc = F_ref
       = 1, V_ref = V_0, no stiffening. Kernels come later, by

@@ -3,8 +3,8 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/ghost_exchange.h"
-#include "sabot/bodies/body.h"
 #include "sabot/bodies/material_points.h"
+#include "sabot/bodies/scaled_body.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
@@ -48,7 +48,7 @@ namespace sabot
  * and 18 to 21 of Wu & Wu 2018 are followed for kernel update, weight and
  * failure (doc/theory/spg.md).
  */
-class SpgBody : public Body
+class SpgBody : public ScaledBody
 {
 public:
   /** Throws InputError, by the entry: a failure criterion that the material

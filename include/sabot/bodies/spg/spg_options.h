@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_spg_options_h
 #define sabot_bodies_spg_spg_options_h
 
+#include "sabot/bodies/mass_scaling.h"
 #include "sabot/bodies/spg/failure/failure_criterion.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
@@ -84,6 +85,7 @@ struct SpgOptions
   /** c1 and c2 of q = rho h (c1 c |d| + c2 h d^2) in compression. */
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.5;
+  MassScalingOptions mass_scaling;
   bool conducts_heat = false;
   double conduction_interval = 1e-6;                    // [s]
   std::array<double, 3> initial_velocity{{0., 0., 0.}}; // [m/s]

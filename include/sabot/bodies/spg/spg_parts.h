@@ -55,6 +55,7 @@ struct StepWork : PointStepArrays<spg_batch_size>
       forces act on the kernel's reference configuration. By rows; det F_inc
       is not in it. */
   Mat inverse_transpose[spg_batch_size];
+  double step[spg_batch_size]; // stable one, as of now [s]
 };
 
 /** What the SPG step finds out about all owned particles on the way. Of this

@@ -18,6 +18,16 @@ namespace sabot
     dilatational wave speed [m/s] of the law. Local. */
 MotionViews motion_views(SpgParts &body, const double dt);
 
+/** Own steps of the particles of @p range, where they are kept at all: the
+   least since they were reset. Local. */
+inline void keep_steps(const ParticleRange &range, const StepWork &work,
+                       ParticleFields &fields)
+{
+  for (std::size_t i = range.begin; i < range.end; ++i)
+    fields.own_step[i] =
+        std::min(fields.own_step[i], work.step[i - range.begin]);
+}
+
 /** Third stage: rotation, law (or what failed metal carries) and work of the
     particles of @p range over a step @p dt. MaterialPoints::rotate(), the law's
     update() of the batch, MaterialPoints::finish(). Where a particle of the
@@ -156,6 +166,8 @@ void spg_step(SpgParts &body, Form &form, const double dt)
     const ParticleRange range{begin, std::min(begin + spg_batch_size, n)};
     // Positions -> gradients: strain, spin, volume, viscosity, stable step.
     follow_motion<stored_gradients>(range, motion, work, body.watch);
+    if (!body.fields.own_step.empty())
+      keep_steps(range, work, body.fields);
     // The stabilization's trial stress, which shares the yield condition.
     form.trial(range, body);
     // Material: rotation, law, work.

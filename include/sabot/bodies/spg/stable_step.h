@@ -68,6 +68,9 @@ public:
     return initial_factor < std::numeric_limits<double>::max();
   }
 
+  /** Owned particle @p i has become heavier: its step is @p factor times as
+      long. */
+  void lengthen(const std::size_t i, const double factor) { step[i] *= factor; }
   /** Stable steps of owned particles [s], before what the state adds. */
   const double *data() const { return step.data(); }
 

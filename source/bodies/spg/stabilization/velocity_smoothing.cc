@@ -80,7 +80,7 @@ void subtract_smoothed(const SpgParts &body, AlignedVector<Vec> &velocity,
   AlignedVector<Vec> smoothed(n);
   for (std::size_t j = 0; j < n; ++j)
   {
-    const Vec momentum = nodes.lumped_mass[j] * velocity[j];
+    const Vec momentum = nodes.moving_mass(j) * velocity[j];
     const LinearFunction phi = find_function(body, j, per_spacing);
     const Eigen::Vector4d &a = phi.a;
     smoothed[j] = (2. / 3. * a[0]) * momentum;
@@ -99,7 +99,7 @@ void subtract_smoothed(const SpgParts &body, AlignedVector<Vec> &velocity,
     Vec sum = smoothed[i];
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       sum += contribution[bonds.reverse[b]];
-    velocity[i] -= (1. / nodes.lumped_mass[i]) * sum;
+    velocity[i] -= (1. / nodes.moving_mass(i)) * sum;
   }
 }
 
@@ -123,7 +123,7 @@ void VelocitySmoothing::after_step(SpgParts &body, const unsigned int step)
     nodes.velocity[i] -= coefficient * difference[i];
   body.constraints.impose(nodes);
   for (std::size_t i = 0; i < n; ++i)
-    done[i] += 0.5 * nodes.lumped_mass[i] *
+    done[i] += 0.5 * nodes.moving_mass(i) *
                (norm_square(before[i]) - norm_square(nodes.velocity[i]));
 }
 
