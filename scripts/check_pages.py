@@ -29,7 +29,7 @@ FOR_TEST = re.compile(r"^<!--\s*test:\s*(.*?)\s*-->$")
 FILE = re.compile(r"^[\w./+-]+\.(prm|md|py|sh|cc|h|msh|geo|png|txt)$")
 FOLDER = re.compile(r"^(source|include|doc|prm|tests|scripts|verification|"
                     r"examples|benchmarks)(/[\w.-]+)*/?$")
-PROBLEM = re.compile(r"^(bar|contact|cost|extreme|fem|heat|johnson|material|"
+PROBLEM = re.compile(r"^(bar|contact|cost|extreme|fem|heat|johnson|mass|material|"
                      r"plate|rigid|saint|simple|spg|thermal|tie|twisting)"
                      r"(-[a-z0-9]+)+$")
 # What a run leaves in its folder.

@@ -347,6 +347,29 @@ class Scenes(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(text, done.stdout)
 
+    def test_a_rod_enters_armor_on_1_and_2_ranks(self):
+        scene = os.path.join(SOURCE, "prm/penetration/coarse.prm")
+        histories = []
+        for ranks in (1, 2):
+            out = folder("rod%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", "--set",
+                         "End time=10 us", "--set",
+                         "Outputs/fields/Interval=10 us", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertLess(r["energy_residual_max"], 0.005)
+            self.assertAlmostEqual(r["bodies"]["rod"]["mass"], 65.4e-3 / 4,
+                                   delta=1e-6)
+            # No cell and no particle rules the step: what closes in does.
+            self.assertGreater(r["stable_step_min"], 20e-9)
+            depth = r["quantities"]["depth"]
+            self.assertAlmostEqual(depth["at_time"], r["time"], delta=1e-12)
+            # Guards against change only: an earlier run gave 12.97 mm.
+            self.assertAlmostEqual(1e3 * depth["value"], 12.97, delta=0.3)
+        self.assertEqual(histories[0], histories[1])
+
     def test_where_metal_fails_on_1_2_and_3_ranks(self):
         # Crumbled metal finds its neighbors anew; by damage, and by a strain that is
         # averaged over a length, resumed half-way.
