@@ -340,6 +340,12 @@ void BodyAssembly::refuse_with_growth(const Carving &carving) const
                        "the zone \"" +
                            carving.zone + "\" be fixed");
   }
+  for (const std::string &body : {carving.body, carving.zone})
+    if (trim(file.value("Bodies/" + body + "/Smallest step", "none")) != "none")
+      throw InputError("Bodies/" + body + "/Smallest step",
+                       "mass is not added to a body whose cells turn into "
+                       "particles; remove the entry, for cells that are "
+                       "squeezed turn by \"Converts by = stable step\"");
   for (const std::string &load : file.subsections("Loads"))
   {
     const std::string body = trim(file.value("Loads/" + load + "/Body", ""));
@@ -362,13 +368,14 @@ GrowingZone BodyAssembly::record_growing(const Carving &carving)
   if (carving.has_start)
     zone.start = carving.shape;
   zone.turn = postures.at(carving.body).turn;
+  refuse_with_growth(carving);
   const std::string path = "Bodies/" + carving.zone;
   const EnteredSubsection entered(prm, "Bodies", carving.zone);
   zone.request = *discretization_of(carving.zone)->conversion(prm, path);
   const Material &law = *bodies[zone.host]->facts().material;
   for (const auto &criterion : zone.request.criteria)
     criterion->check(law, path);
-  refuse_with_growth(carving);
+  bodies[zone.host]->own_particles = bodies[zone.zone].get();
   bodies[zone.host]->cell_source()->convert_by(zone.request.criteria);
   return zone;
 }

@@ -381,6 +381,10 @@ public:
   virtual GlobalIndex n_items() const = 0;
   virtual std::string step_timer_name() const = 0;
 
+  /** The body of the particles that its cells turn into; null: none. Set by
+      whoever made the two. */
+  const Body *own_particles = nullptr;
+
   /** Its true shape at the start, from the constructor on; whoever checks the
       scene takes it away. Without faces where there are none to show. */
   Outline outline;
@@ -394,6 +398,9 @@ protected:
       do not. */
   const VelocityConstraints *prescribed_velocities = nullptr;
 };
+/** Mass, velocity, kinetic energy, bounds and what has eroded of a body
+   together with the particles that its cells turned into. Collective. */
+BodyMeasures measure_with_particles(const Body &body);
 } // namespace sabot
 
 #endif

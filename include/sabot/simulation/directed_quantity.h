@@ -39,12 +39,12 @@ inline double copies_by_symmetry(const Body &body)
   return std::pow(2., double(body.planes_of_symmetry().size()));
 }
 
-/** Velocity of the center of mass of the whole body [m/s]: none across planes of
-    symmetry, for what the model holds of a body bulges and its image does so
+/** Velocity of the center of mass of the whole body [m/s]: none across planes
+   of symmetry, for what the model holds of a body bulges and its image does so
     the other way. Collective. */
 inline std::array<double, 3> velocity_of_whole(const Body &body)
 {
-  std::array<double, 3> v = body.measure().velocity;
+  std::array<double, 3> v = measure_with_particles(body).velocity;
   for (const SymmetryPlane &plane : body.planes_of_symmetry())
     v[plane.axis] = 0.;
   return v;

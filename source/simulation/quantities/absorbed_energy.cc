@@ -18,7 +18,7 @@ public:
   }
   double value() const override
   {
-    const BodyMeasures m = body.measure();
+    const BodyMeasures m = measure_with_particles(body);
     double square = 0.;
     for (const double v : velocity_of_whole(body))
       square += v * v;

@@ -14,7 +14,7 @@ public:
   }
   double value() const override
   {
-    return extent(along.body.measure(), along.axis());
+    return extent(measure_with_particles(along.body), along.axis());
   }
   std::string unit() const override { return "m"; }
 

@@ -19,16 +19,17 @@ Rim outermost(const Body &body, const int axis, const double sign,
               const double low, const double high, MPI_Comm communicator)
 {
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-  const NodalState &nodes = body.nodes();
   Rim rim;
-  for (std::size_t i = 0; i < nodes.n_owned; ++i)
-  {
-    const Vec x = nodes.position[i];
-    const double height = sign * x[axis], radius = std::hypot(x[b], x[c]);
-    if (height >= low && height <= high &&
-        (radius > rim.radius || (radius == rim.radius && height < rim.height)))
-      rim = {height, radius};
-  }
+  for (const Body *part : {&body, body.own_particles})
+    for (std::size_t i = 0; part != nullptr && i < part->nodes().n_owned; ++i)
+    {
+      const Vec x = part->nodes().position[i];
+      const double height = sign * x[axis], radius = std::hypot(x[b], x[c]);
+      if (height >= low && height <= high &&
+          (radius > rim.radius ||
+           (radius == rim.radius && height < rim.height)))
+        rim = {height, radius};
+    }
   double top = rim.radius;
   MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, communicator);
   double at =
@@ -51,7 +52,7 @@ public:
   }
   double value() const override
   {
-    const BodyMeasures m = along.body.measure();
+    const BodyMeasures m = measure_with_particles(along.body);
     const int axis = along.axis();
     const double sign = along.direction[axis] > 0. ? 1. : -1.,
                  foot = sign > 0. ? m.low[axis] : -m.high[axis],

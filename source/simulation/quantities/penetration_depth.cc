@@ -38,7 +38,7 @@ public:
 private:
   double now() const
   {
-    const BodyMeasures m = along.body.measure();
+    const BodyMeasures m = measure_with_particles(along.body);
     const int axis = along.axis();
     const double tip = along.direction[axis] > 0. ? m.high[axis] : -m.low[axis];
     return tip - origin;

@@ -17,7 +17,7 @@ public:
   }
   double value() const override
   {
-    const BodyMeasures m = across.body.measure();
+    const BodyMeasures m = measure_with_particles(across.body);
     const int b = (across.axis() + 1) % 3, c = (across.axis() + 2) % 3;
     return 0.25 * (whole[b] * extent(m, b) + whole[c] * extent(m, c));
   }
