@@ -227,11 +227,14 @@ void add_halves(std::vector<Check> &checks)
     for (const Kind block : {Kind::cells, Kind::b_bar})
     {
       double along = 0., difference = 0.;
-      for (const double ratio : {0.5, 1.})
+      // Where a node of the wall stands on the cut and where none does.
+      for (const double ratio : {0.5, 1., 10. / 7.})
       {
         Slide s;
         s.block = block;
         s.wall = wall;
+        if (wall != Kind::rigid && ratio > 1.)
+          continue; // no such mesh of half a wall
         s.ratio = ratio;
         s.offset = 0.3;
         s.gap = 0.05e-3;
@@ -249,8 +252,7 @@ void add_halves(std::vector<Check> &checks)
                         along, wall == Kind::rigid ? 1e-8 : 1e-3, "1",
                         "planes are smooth"});
       checks.push_back({where + "change of speed across, against the whole", 0.,
-                        difference, 0., "1", "symmetry",
-                        Check::Kind::reported});
+                        difference, 1e-9, "1", "symmetry"});
     }
 }
 

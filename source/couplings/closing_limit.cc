@@ -1,11 +1,10 @@
 // The step limit of bodies that close in on each other.
 #include "sabot/couplings/closing_limit.h"
 
-#include "sabot/couplings/contact_spring.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace sabot
 {
@@ -40,17 +39,25 @@ ClosingLimit::ClosingLimit(
 {
   for (const Body *body : bodies)
     is_rigid.push_back(!deforms(*body));
-  std::vector<std::pair<int, int>> known;
+  // Where several hold two bodies apart the softest counts.
+  std::map<std::pair<int, int>, double> known;
   for (const auto &coupling : couplings)
     for (const auto &[first, second] : coupling->holds_apart())
-      known.emplace_back(std::min(first, second), std::max(first, second));
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
-  for (const auto &[a, b] : known)
+    {
+      const auto added = known.emplace(std::minmax(first, second),
+                                       coupling->stability_fraction());
+      added.first->second =
+          std::min(added.first->second, coupling->stability_fraction());
+    }
+  for (const auto &[members, fraction] : known)
+  {
+    const auto [a, b] = members;
     if (a != b && !(is_prescribed(*bodies[a]) && is_prescribed(*bodies[b])))
       pairs.push_back(
           {a, b, is_rigid[a] && is_rigid[b],
-           is_rigid[a] && is_rigid[b] ? part_of_rigid : part_of_others, 0.});
+           is_rigid[a] && is_rigid[b] ? part_of_rigid : part_of_others, 0.,
+           fraction});
+  }
   const auto walls = find_symmetry_walls(bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (const SymmetryWall &wall : walls[b])
@@ -60,7 +67,8 @@ ClosingLimit::ClosingLimit(
         Motion all{vec(-far, -far, -far), vec(far, far, far), {}, {}};
         (wall.side > 0. ? all.high : all.low)[wall.plane.axis] =
             wall.plane.coordinate;
-        pairs.push_back({int(b), int(motions.size()), true, part_of_rigid, 0.});
+        pairs.push_back(
+            {int(b), int(motions.size()), true, part_of_rigid, 0., 0.});
         motions.push_back(all);
       }
   for (const Pair &pair : pairs)
@@ -69,12 +77,11 @@ ClosingLimit::ClosingLimit(
         is_used[m] = 1;
 }
 
-double ClosingLimit::part_of_pair(const int a, const int b) const
+double ClosingLimit::part_of_pair(const Pair &pair) const
 {
   constexpr double deepest = 0.25; // over the spacing
-  const double phi = SpringOptions().stability_fraction;
   double lightest = far, inverse_mass = 0.;
-  for (const int m : {a, b})
+  for (const int m : {pair.a, pair.b})
   {
     const NodalState &nodes = bodies[m]->nodes();
     ExactSum mass;
@@ -89,8 +96,8 @@ double ClosingLimit::part_of_pair(const int a, const int b) const
       inverse_mass += 1. / mass.value();
   }
   MPI_Allreduce(MPI_IN_PLACE, &lightest, 1, MPI_DOUBLE, MPI_MIN, communicator);
-  return std::min(part_of_rigid,
-                  deepest * std::sqrt(phi * lightest * inverse_mass));
+  return std::min(part_of_rigid, deepest * std::sqrt(pair.stability_fraction *
+                                                     lightest * inverse_mass));
 }
 
 void ClosingLimit::initialize()
@@ -100,7 +107,7 @@ void ClosingLimit::initialize()
       spacing[b] = bodies[b]->contact_surface().spacing;
   for (Pair &pair : pairs)
     if (pair.both_rigid && pair.b < int(bodies.size()))
-      pair.part = part_of_pair(pair.a, pair.b);
+      pair.part = part_of_pair(pair);
   for (Pair &pair : pairs)
     pair.spacing = pair.b < int(bodies.size())
                        ? std::min(spacing[pair.a], spacing[pair.b])

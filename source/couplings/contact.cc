@@ -10,7 +10,8 @@ Contact::Contact(const std::string &name, const std::vector<Body *> &bodies,
                  const std::vector<ContactPair> &pairs,
                  const ContactOptions &options, MPI_Comm communicator)
     : Coupling(name), bodies(bodies), pairs(pairs), options(options),
-      communicator(communicator), faces(halo), patch(halo, faces)
+      communicator(communicator), faces(halo), patch(halo, faces),
+      shared_work(holds_apart(), communicator)
 {
   forces.pairs = PairForces(holds_apart(), bodies);
 }
@@ -85,7 +86,7 @@ void Contact::add_forces(const double dt)
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (!(traveled < groups[g].wake)) // else still apart
       press(g, dt);
-  points.find_forces(options, dt);
+  points.find_forces(options, dt, &shared_work);
   for (const ContactPoint &point : points)
     push(point);
   forces.add_to_bodies(halo);
@@ -125,7 +126,6 @@ void Contact::press(const std::size_t number, const double dt)
   double geometric_depth;
   touch(group, f, projection, point.normal, geometric_depth);
   point.last_touched = touched.size();
-  const double face_compliance = compliance(group, point.first_touched);
   point.velocity =
       halo.velocity[group.slot] - velocity_of_touched(point.first_touched);
   point.depth = group.memory.effective_depth(geometric_depth,
@@ -135,7 +135,7 @@ void Contact::press(const std::size_t number, const double dt)
     touched.resize(point.first_touched);
     return;
   }
-  point.reduced_mass = 1. / (1. / halo.inertia[group.slot] + face_compliance);
+  point.reduced_mass = reduced_mass(group, point.first_touched);
   point.stiffness = options.stable_stiffness(
       group.stiffness, point.reduced_mass, points.steady_step.value);
   point.area = norm_square(group.area_vector) > 0.
@@ -143,6 +143,9 @@ void Contact::press(const std::size_t number, const double dt)
                    : group.area;
   point.largest_friction = shear_limit(group, point.first_touched) * point.area;
   point.memory = &group.memory;
+  point.pair = shared_work.number_of(halo.key(group.slot).body,
+                                     halo.key(faces.corners[f][0]).body);
+  point.is_owned = group.slot < halo.n_owned();
   points.add(point);
   penetration_over_spacing =
       std::max(penetration_over_spacing, point.depth / group.spacing);
@@ -162,17 +165,19 @@ void Contact::touch(const Group &group, const std::ptrdiff_t face,
   depth = -projection.gap;
 }
 
-double Contact::compliance(const Group &group, const std::size_t first) const
+double Contact::reduced_mass(const Group &group, const std::size_t first) const
 {
-  // An image stands for the node of the other half, whose mass is that of its
-  // own; of a particle on the plane only its share presses here.
+  // A node on a plane of symmetry has part of its mass here. Of a patch its
+  // image is touched, too, and each of the two has half of the weight.
   double sum = 0.;
   for (std::size_t i = first; i < touched.size(); ++i)
   {
     const TouchedNode &t = touched[i];
-    sum += t.weight * t.weight / halo.inertia[t.slot];
+    sum += t.weight * t.weight / halo.inertia[t.slot] *
+           (group.patch_radius > 0. ? 1. : share[t.slot]);
   }
-  return group.patch_radius > 0. ? sum / group.share : sum;
+  return group.share * group.cut /
+         (group.share / halo.inertia[group.slot] + sum);
 }
 
 Vec Contact::velocity_of_touched(const std::size_t first) const

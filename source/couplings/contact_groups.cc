@@ -138,6 +138,7 @@ Contact::make_group(const SearchResult &found, const KeptNode &node,
   {
     const ContactCandidate &c = found.candidates[i];
     const int other = found.faces[found.face_of_candidate[c.first_face]].body;
+    group.cut = std::min(group.cut, c.cut);
     modulus = std::min(modulus, surfaces[other].bulk_modulus);
     for (const ContactPair &pair : pairs)
       if (pair.faces_of == body && pair.nodes_of == other &&
@@ -150,10 +151,10 @@ Contact::make_group(const SearchResult &found, const KeptNode &node,
   }
   group.last_face = faces.face_of_node.size();
   group.share = candidate.share;
-  group.stiffness =
-      candidate.share * options.stiffness_scale * modulus * group.spacing;
-  group.area = candidate.share * group.spacing * group.spacing / sides;
-  group.area_vector = (1. / sides) * candidate.area;
+  const double part = candidate.share * group.cut;
+  group.stiffness = part * options.stiffness_scale * modulus * group.spacing;
+  group.area = part * group.spacing * group.spacing / sides;
+  group.area_vector = (group.cut / sides) * candidate.area;
   group.own = candidate.own;
   return group;
 }
@@ -170,7 +171,30 @@ void Contact::reset_slots()
     if (surface.spacing > 0.)
       spacing = std::min(spacing, surface.spacing);
   }
-  faces.build_normals(planes, 1e-6 * spacing);
+  share = gather_of_slots(&ContactSurface::node_share, 1.);
+  std::vector<double> reach =
+      gather_of_slots(&ContactSurface::edge_distance, 0.);
+  for (double &distance : reach)
+    distance /= spacing;
+  faces.build_normals(planes, 1e-6 * spacing, reach);
+}
+
+std::vector<double>
+Contact::gather_of_slots(std::vector<double> ContactSurface::*const of_surface,
+                         const double otherwise) const
+{
+  std::vector<double> value(halo.size(), otherwise);
+  for (std::size_t s = 0; s < halo.n_owned(); ++s)
+  {
+    const ContactSurface &surface = surfaces[halo.key(s).body];
+    const auto node = std::lower_bound(surface.nodes.begin(),
+                                       surface.nodes.end(), halo.local(s));
+    if (!(surface.*of_surface).empty() && node != surface.nodes.end() &&
+        *node == halo.local(s))
+      value[s] = (surface.*of_surface)[node - surface.nodes.begin()];
+  }
+  halo.update_ghosts(value.data());
+  return value;
 }
 
 void Contact::visit_state(StateVisitor &visitor)
@@ -179,6 +203,7 @@ void Contact::visit_state(StateVisitor &visitor)
   visitor.visit_value("surface version", surface_version);
   visitor.visit_value("penetration", penetration_over_spacing);
   visitor.visit_value("steady step", points.steady_step.value);
+  shared_work.visit_state(visitor);
   // Candidates were found where the bodies were at the last search, so they
   // cannot be found anew. Slots depend on nothing but the nodes.
   SavedGroups saved;
@@ -186,7 +211,8 @@ void Contact::visit_state(StateVisitor &visitor)
     saved.groups.push_back(
         {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
          group.stiffness, group.spacing, group.area, group.area_vector,
-         group.own, group.memory, group.wake, group.patch_radius, group.share});
+         group.own, group.memory, group.wake, group.patch_radius, group.share,
+         group.cut});
   for (const std::size_t face : faces.face_of_node)
     saved.face_of_node.push_back(face);
   for (const auto &face : faces.corners)
@@ -237,6 +263,7 @@ void Contact::restore_groups(const SavedGroups &saved)
     group.wake = from.wake;
     group.patch_radius = from.patch_radius;
     group.share = from.share;
+    group.cut = from.cut;
     groups.push_back(group);
   }
   reset_slots();

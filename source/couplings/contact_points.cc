@@ -1,6 +1,8 @@
 // Forces of spring and friction on all contact points of a step.
 #include "sabot/couplings/contact_points.h"
 
+#include "sabot/couplings/shared_work.h"
+
 #include <cmath>
 
 namespace sabot
@@ -33,9 +35,12 @@ Vec friction_of(const ContactPoint &p, const ContactOptions &options,
 }
 } // namespace
 
-void ContactPoints::find_forces(const ContactOptions &options, const double dt)
+void ContactPoints::find_forces(const ContactOptions &options, const double dt,
+                                SharedWork *const work)
 {
   const std::size_t n = points.size();
+  if (work != nullptr)
+    work->stiffen(points);
   contacts.pressing.resize(n);
   contacts.speed.resize(n);
   contacts.area.resize(n);
@@ -59,12 +64,8 @@ void ContactPoints::find_forces(const ContactOptions &options, const double dt)
                       std::min(largest[i], points[i].largest_friction), dt);
   }
   for (ContactPoint &p : points)
-  {
     p.part = p.fade;
-    if (p.memory != nullptr)
-      p.part = p.fade * backed_part(*p.memory,
-                                    p.fade * p.stiffness * p.depth * p.normal,
-                                    p.velocity, p.stiffness, dt);
-  }
+  if (work != nullptr)
+    work->back(points, dt);
 }
 } // namespace sabot

@@ -230,12 +230,17 @@ ContactMemory recall(const ContactMemories &memories, const NodeKey &key)
                                                         : ContactMemory();
 }
 
-/** The normal of a particle's surface, between one of a smooth part and one of
-    a corner of a box. */
-SmoothNormal normal_of(const SurfacePoint &point)
+/** ContactCandidate::cut of a node at @p x. */
+double part_of_cut_node(const Vec x, const ContactSurface &own,
+                        const ContactSurface &its)
 {
-  constexpr double corner = 0.85;
-  return {point.normal, corner * (1. - point.flatness)};
+  double part = 1.;
+  for (const SymmetryPlane &plane : its.symmetry_planes)
+    if (std::find(own.symmetry_planes.begin(), own.symmetry_planes.end(),
+                  plane) == own.symmetry_planes.end() &&
+        std::abs(x[plane.axis] - plane.coordinate) <= 1e-6 * its.spacing)
+      part *= 0.5;
+  return part;
 }
 
 /** Append to @p result what the nodes of @p pair that are owned here may
@@ -283,12 +288,17 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
             near.push_back(f);
         });
     const std::int64_t last = near.size();
+    SmoothNormal own;
+    if (last > first && particles != nullptr && !is_loose[i])
+    {
+      const SurfacePoint point = particles->surface_point(i);
+      own = {point.normal, point.spread};
+    }
     if (last > first)
-      result.candidates.push_back({key, share, first, last, memory,
-                                   search.with_areas ? areas[i] : Vec{},
-                                   particles != nullptr && !is_loose[i]
-                                       ? normal_of(particles->surface_point(i))
-                                       : SmoothNormal()});
+      result.candidates.push_back(
+          {key, share, first, last, memory,
+           search.with_areas ? areas[i] : Vec{}, own,
+           part_of_cut_node(x, surface, search.surfaces[pair.faces_of])});
   };
   if (!pair.loose_nodes_only)
     for (std::size_t k = 0; k < surface.nodes.size(); ++k)

@@ -1,7 +1,9 @@
-// The entries of the spring that all contacts share.
+// The spring that all contacts share: its entries, and the work that backs it.
 #include "sabot/couplings/contact_spring.h"
 
 #include "sabot/base/parameters.h"
+
+#include <cmath>
 
 namespace sabot
 {
@@ -17,5 +19,35 @@ void SpringOptions::parse_parameters(const Parameters &prm)
 {
   damping_fraction = get_quantity(prm, "Damping fraction");
   stiffness_scale = get_quantity(prm, "Stiffness scale");
+}
+
+double backed_part(ContactMemory &memory, const AskingSpring &spring,
+                   const double dt)
+{
+  memory.stored -= 0.5 * dot(memory.spring, spring.velocity) * dt;
+  const double square = norm_square(spring.force),
+               work = dot(spring.force, spring.velocity) * dt,
+               kick = 0.5 * square * dt * dt / spring.reduced_mass,
+               phi = std::min(0.5,
+                              spring.stiffness * dt * dt / spring.reduced_mass);
+  double available = memory.stored + spring.lent;
+  if (available > 0. && square > 0.)
+  {
+    // k d^2/2, and k (v_n dt)^2/2 with v_n along the force.
+    const double held = 0.5 * square / spring.stiffness,
+                 motion = 0.5 * spring.stiffness * work * work / square;
+    available += std::min(1., available / held) * motion / (1. - phi);
+  }
+  available = std::max(0., available);
+  double part = 1.;
+  if (work + kick > available)
+  {
+    const double root = std::sqrt(work * work + 4. * kick * available);
+    part =
+        work > 0. ? 2. * available / (work + root) : 0.5 * (root - work) / kick;
+  }
+  memory.stored -= 0.5 * part * work;
+  memory.spring = part * spring.force;
+  return part;
 }
 } // namespace sabot

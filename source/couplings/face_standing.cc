@@ -31,11 +31,13 @@ public:
   {
     sum.direction += normal.direction;
     sum.spread += normal.spread;
+    sum.reach += normal.reach;
     ++n;
   }
   SmoothNormal value() const
   {
-    return {(1. / norm(sum.direction)) * sum.direction, sum.spread / n};
+    return {(1. / norm(sum.direction)) * sum.direction, sum.spread / n,
+            sum.reach / n};
   }
 
 private:
@@ -175,7 +177,7 @@ std::ptrdiff_t FaceStanding::stand(const NearFaces &node,
   // curvature.
   const double reach =
       2. * std::sqrt(projection.distance_square) + 1e-3 * node.spacing;
-  SmoothNormal its = {-1. * own.direction, own.spread};
+  SmoothNormal its = {-1. * own.direction, own.spread, own.reach};
   if (norm_square(own.direction) == 0. || !is_smooth(own))
     its = normal_of_closest(node, side, projection);
   std::ptrdiff_t at = face;

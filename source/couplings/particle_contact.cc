@@ -14,7 +14,7 @@ ParticleContact::ParticleContact(const std::string &name,
                                  const ContactOptions &options,
                                  MPI_Comm communicator)
     : Coupling(name), bodies(bodies), pairs(pairs), options(options),
-      communicator(communicator)
+      communicator(communicator), shared_work(pairs, communicator)
 {
   forces.pairs = PairForces(pairs, bodies);
 }
@@ -36,10 +36,10 @@ void ParticleContact::initialize()
   {
     const Standing at = locate(groups[g], slots[g]);
     if (at.fade > 0.)
-      initial_over_spacing =
-          std::max(initial_over_spacing, -at.gap / groups[g].spacing);
+      over_spacing.initial =
+          std::max(over_spacing.initial, -at.gap / groups[g].spacing);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &initial_over_spacing, 1, MPI_DOUBLE, MPI_MAX,
+  MPI_Allreduce(MPI_IN_PLACE, &over_spacing.initial, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
 }
 
@@ -262,14 +262,16 @@ void ParticleContact::press(const std::size_t number, const double dt)
   point.area = group.area;
   point.largest_friction = largest_friction(group, at);
   point.memory = &memory;
+  point.pair = shared_work.number_of(group.node.body, group.other);
+  point.is_owned = at.node < halo.n_owned();
   point.first_touched = touched.size();
   for (const NearParticle &p : near)
     if (p.weight != 0.)
       touched.push_back(p);
   point.last_touched = touched.size();
   points.add(point);
-  penetration_over_spacing =
-      std::max(penetration_over_spacing, point.depth / group.spacing);
+  over_spacing.largest =
+      std::max(over_spacing.largest, point.depth / group.spacing);
 }
 
 void ParticleContact::push(const ContactPoint &point)
@@ -302,7 +304,7 @@ void ParticleContact::add_forces(const double dt)
   points.steady_step.follow(dt);
   for (std::size_t g = 0; g < groups.size(); ++g)
     press(g, dt);
-  points.find_forces(options, dt);
+  points.find_forces(options, dt, &shared_work);
   for (const ContactPoint &point : points)
     push(point);
   forces.add_to_bodies(halo);
@@ -320,14 +322,14 @@ void ParticleContact::add_energies(EnergyLedger &ledger) const
 
 Measures ParticleContact::measure() const
 {
-  double penetration = penetration_over_spacing;
+  double penetration = over_spacing.largest;
   MPI_Allreduce(MPI_IN_PLACE, &penetration, 1, MPI_DOUBLE, MPI_MAX,
                 communicator);
   GlobalIndex deep = n_deep;
   MPI_Allreduce(MPI_IN_PLACE, &deep, 1, MPI_INT64_T, MPI_SUM, communicator);
   Measures measures = {
       {"penetration max over spacing", "1", penetration},
-      {"initial penetration over spacing", "1", initial_over_spacing},
+      {"initial penetration over spacing", "1", over_spacing.initial},
       {"nodes deep inside", "1", double(deep)}};
   forces.add_measures(measures, communicator);
   return measures;
@@ -337,8 +339,9 @@ void ParticleContact::visit_state(StateVisitor &visitor)
 {
   age.visit_state(visitor);
   visitor.visit_value("allowance", allowance);
-  visitor.visit_value("penetration", penetration_over_spacing);
+  visitor.visit_value("penetration", over_spacing.largest);
   visitor.visit_value("steady step", points.steady_step.value);
+  shared_work.visit_state(visitor);
   // Candidates were found where the bodies were at the last search.
   visitor.visit_resized("groups", groups);
   visitor.visit_resized("members", members);

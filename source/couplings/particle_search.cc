@@ -63,7 +63,8 @@ ParticleSearch::ParticleSearch(const std::vector<Body *> &bodies,
     {
       extent[b] = box_of(*bodies[b], communicator);
       surfaces[b] = bodies[b]->contact_surface();
-      spacing = std::max(spacing, surfaces[b].spacing);
+      spacing =
+          std::max({spacing, surfaces[b].spacing, surfaces[b].largest_spacing});
     }
   // Twice: bodies stretch.
   const double margin = 2. * std::sqrt(2.) * reach * spacing + skin;

@@ -21,11 +21,19 @@ bool is_smooth(const SmoothNormal &own)
 Vec common_normal(const SmoothNormal &its, const SmoothNormal &own)
 {
   constexpr double least = 1e-14; // angles of 1e-7: below, both are planes
+  constexpr double plane = 1e-12;
   const double part = std::clamp((edge - own.spread) / (edge - smooth), 0., 1.);
   if (part == 0. || norm_square(own.direction) == 0.)
     return its.direction;
-  const Vec sum = (1. / (its.spread + least)) * its.direction -
-                  (part / (own.spread + least)) * own.direction;
+  double its_weight = 1. / (its.spread + least),
+         own_weight = part / (own.spread + least);
+  if (its.spread < plane && own.spread < plane)
+  {
+    const double further = its.reach - own.reach;
+    (further > 0. ? own_weight : its_weight) *=
+        std::pow(1e-16, std::min(1., std::abs(further)));
+  }
+  const Vec sum = its_weight * its.direction - own_weight * own.direction;
   const double length = norm(sum);
   if (!(length > 0.) || !(dot(sum, its.direction) > 0.))
     return its.direction;
@@ -41,10 +49,11 @@ double least_cosine_of_met_faces(const SmoothNormal &own)
 
 void SurfaceNormals::build(
     const std::vector<std::vector<SymmetryPlane>> &planes_of_bodies,
-    const double distance)
+    const double distance, const std::vector<double> &reach)
 {
   planes = planes_of_bodies;
   nearness = distance;
+  reach_of_slot = reach;
   first_of_slot.assign(halo.size() + 1, 0);
   for (const auto &face : corners)
     for (const std::size_t slot : face)
@@ -98,6 +107,7 @@ SmoothNormal SurfaceNormals::around(const std::size_t slot,
     return normal;
   normal.direction = (1. / length) * sum;
   normal.spread = std::max(0., 2. * (1. - length / size));
+  normal.reach = reach_of_slot.empty() ? 0. : reach_of_slot[slot];
   return normal;
 }
 
@@ -121,6 +131,7 @@ SmoothNormal SurfaceNormals::of_face(const std::size_t face,
       const SmoothNormal corner = around(corners[face][a], &own);
       normal.direction += weight[a] * corner.direction;
       normal.spread += weight[a] * corner.spread;
+      normal.reach += weight[a] * corner.reach;
     }
   const double length = norm(normal.direction);
   normal.direction = length > 0. ? (1. / length) * normal.direction : own;

@@ -148,4 +148,35 @@ AlignedVector<Vec> outward_normals(const ParticleCloud &cloud,
     normal[i] *= std::max(0., least[i]);
   return normal;
 }
+
+std::vector<double> surface_spacings(const ParticleCloud &cloud,
+                                     const std::uint32_t without)
+{
+  const std::size_t n = cloud.position.size();
+  std::vector<double> spacing(n, 0.);
+  std::vector<int> n_faces(n, 0);
+  const auto at = [&](const std::size_t particle)
+  {
+    const auto &p = cloud.position[particle];
+    return vec(p[0], p[1], p[2]);
+  };
+  for (std::size_t f = 0; f < cloud.skin.size(); ++f)
+  {
+    const unsigned int id = cloud.skin_id[f];
+    if (id < ParticleCloud::n_faces && without >> id & 1)
+      continue;
+    const auto &face = cloud.skin[f];
+    const double area =
+        0.5 * norm(cross(at(face[2]) - at(face[0]), at(face[3]) - at(face[1])));
+    for (const std::size_t particle : face)
+    {
+      spacing[particle] += area;
+      ++n_faces[particle];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (n_faces[i] > 0)
+      spacing[i] = std::sqrt(spacing[i] / n_faces[i]);
+  return spacing;
+}
 } // namespace sabot

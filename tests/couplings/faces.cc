@@ -1,11 +1,14 @@
 // Normals of surfaces of faces, and what they do for the symmetry of contact.
 #include "sabot/bodies/rigid/rigid_body.h"
 #include "sabot/couplings/contact.h"
+#include "sabot/geometry/edge_distance.h"
 #include "sabot/geometry/round_bodies.h"
 #include "sabot/kernels/face_hit.h"
 #include "verification/world.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace
 {
@@ -79,12 +82,45 @@ TEST(Faces, the_common_normal_is_that_of_the_surer_side)
   EXPECT_NEAR(common_normal(tilted(0.1, 1e-2), down(-0.1, 1e-2))[0], 0., 1e-12);
   EXPECT_DOUBLE_EQ(common_normal(tilted(0.1, 1e-2), down(-0.5, 0.59))[0],
                    std::sin(0.1));
+  // Of two planes the one that goes on further, alone from a spacing more on.
+  const auto plane = [&](SmoothNormal normal, const double reach)
+  {
+    normal.reach = reach;
+    return normal;
+  };
+  const SmoothNormal one = tilted(0.3, 1e-15), other = down(0., 0.);
+  EXPECT_NEAR(common_normal(plane(one, 2.), plane(other, 9.))[0], 0., 1e-14);
+  EXPECT_NEAR(common_normal(plane(one, 4.), plane(other, 2.))[0], std::sin(0.3),
+              1e-14);
+  EXPECT_NEAR(common_normal(plane(one, 2.), plane(other, 2.))[0],
+              std::sin(0.15), 1e-2);
   // Which faces a node may meet: within 40 degrees of those in which it is the
   // foremost of its body.
   EXPECT_NEAR(least_cosine_of_met_faces({vec(0, 0, 1), 0.}),
               std::cos(40. * M_PI / 180.), 1e-3);
   EXPECT_NEAR(least_cosine_of_met_faces({vec(0, 0, 1), 2. - std::sqrt(2.)}),
               std::cos(85. * M_PI / 180.), 1e-3);
+}
+
+TEST(Faces, planes_go_on_to_their_edges)
+{
+  const HexMesh mesh = brick({{8e-3, 4e-3, 4e-3}}, {{0., 0., 0.}}, h);
+  const std::vector<double> distance = edge_distances(mesh);
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+  {
+    const auto &p = mesh.nodes[a];
+    std::array<double, 3> in{
+        {4e-3 - std::abs(p[0]), 2e-3 - std::abs(p[1]), 2e-3 - std::abs(p[2])}};
+    std::sort(in.begin(), in.end());
+    if (in[0] < 1e-9) // on a face, this far from its edges
+    {
+      EXPECT_NEAR(distance[a], in[1], 1e-12);
+    }
+  }
+  // A ball has no planes.
+  const HexMesh ball = make_sphere(5e-3, {{0., 0., 0.}}, 1e-3);
+  for (const double way : edge_distances(ball))
+    EXPECT_EQ(way, 0.);
 }
 
 /** The normals of a body's surface, alone. */
@@ -117,7 +153,7 @@ struct Surface
       for (int a = 0; a < 4; ++a)
         corners.back()[a] = halo.slot(key(face[a]));
     }
-    normals.build({{}}, 1e-9);
+    normals.build({{}}, 1e-9, {});
   }
 };
 

@@ -3,6 +3,7 @@
 #include "sabot/couplings/contact_points.h"
 #include "sabot/couplings/coupling_builder.h"
 #include "sabot/couplings/friction/coulomb.h"
+#include "sabot/couplings/shared_work.h"
 
 #include <gtest/gtest.h>
 
@@ -78,20 +79,100 @@ TEST(Spring, gives_back_no_more_than_it_took)
   for (int step = 0; step < 100; ++step)
   {
     depth += v * dt;
-    EXPECT_EQ(backed_part(memory, k * depth * n, -v * n, k, dt), 1.);
+    EXPECT_EQ(backed_part(memory, {k * depth * n, -v * n, k, mass}, dt), 1.);
     taken = memory.stored;
   }
   EXPECT_NEAR(taken, 0.5 * k * depth * depth, 1e-12 * taken);
   for (int step = 0; step < 100; ++step)
   {
     depth -= v * dt;
-    EXPECT_EQ(backed_part(memory, k * depth * n, v * n, k, dt), 1.);
+    EXPECT_EQ(backed_part(memory, {k * depth * n, v * n, k, mass}, dt), 1.);
   }
   EXPECT_NEAR(memory.stored, 0., 1e-9 * taken);
-  // Beyond that it has only what one step's motion is worth, k (v dt)^2/2.
+  // What has taken less gives less: with a tenth of k d^2/2 the work of the
+  // next step, in which its own kick takes part, is that and a tenth of what
+  // one step's motion is worth, k (v dt)^2/2.
   memory = ContactMemory();
-  const double part = backed_part(memory, 1e3 * n, v * n, k, dt);
-  EXPECT_NEAR(part, 0.5 * k * v * v * dt * dt / (0.5 * 1e3 * v * dt), 1e-15);
+  const double f = 1e3, U = 0.5 * f * f / k, phi = k * dt * dt / mass;
+  EXPECT_EQ(backed_part(memory, {f * n, v * n, k, mass}, dt), 0.);
+  memory.stored = 0.1 * U;
+  const double fast = 3e5,
+               part = backed_part(memory, {f * n, fast * n, k, mass}, dt);
+  EXPECT_LT(part, 0.5);
+  EXPECT_NEAR(part * f * fast * dt + 0.5 * std::pow(part * f * dt, 2) / mass,
+              0.1 * (U + 0.5 * k * std::pow(fast * dt, 2) / (1. - phi)),
+              1e-12 * U);
+  // The half step that a force has already acted for counts in full.
+  EXPECT_NEAR(memory.stored, 0.1 * U - 0.5 * part * f * fast * dt, 1e-12 * U);
+}
+
+TEST(Spring, without_a_potential_gives_no_energy)
+{
+  // A node whose depth does not follow its motion comes in, and is thrown back
+  // and forth by a stress behind it: what it gets stays below what it had.
+  ContactMemory memory;
+  const double k = 1e9, depth = 1e-6;
+  const Vec n = vec(0., 0., 1.);
+  double v = -1., work = 0.;
+  for (int step = 0; step < 1000; ++step)
+  {
+    const double part =
+        backed_part(memory, {k * depth * n, v * n, k, mass}, dt);
+    const double before = v, f = part * k * depth;
+    v += (f / mass + (step % 2 == 0 ? 1e7 : -1e7)) * dt;
+    work += 0.5 * f * (before + v) * dt;
+  }
+  EXPECT_LT(work, 0.5 * mass);
+}
+
+TEST(Spring, sliding_moves_work_from_one_node_to_another)
+{
+  // Of two springs of a pair one came in without work, the other is leaving
+  // with what it took: the first is filled from the second, and what is left
+  // makes both stiffer.
+  const ContactOptions options;
+  SharedWork work({{2, 1}, {0, 1}}, MPI_COMM_SELF);
+  EXPECT_EQ(work.number_of(1, 2), 1);
+  EXPECT_EQ(work.number_of(0, 1), 0);
+  const double k = 1e6, small = 1e-6, U = 0.5 * k * small * small;
+  ContactMemory memory[2];
+  memory[0].stored = 4. * U; // of twice the depth
+  const auto step = [&](const double first, const double second)
+  {
+    ContactPoints points;
+    for (int i = 0; i < 2; ++i)
+    {
+      ContactPoint point = point_at(i == 0 ? first : second, Vec{});
+      point.memory = &memory[i];
+      memory[i].spring = k * point.depth * point.normal; // it is not new
+      point.pair = 1;
+      point.is_owned = true;
+      points.add(point);
+    }
+    points.find_forces(options, dt, &work);
+    return points.begin()->part * points.begin()->stiffness / k;
+  };
+  EXPECT_EQ(step(small, small), 1.);
+  EXPECT_DOUBLE_EQ(memory[0].stored, U);
+  EXPECT_DOUBLE_EQ(memory[1].stored, U);
+  EXPECT_DOUBLE_EQ(work.left(1), 2. * U);
+  EXPECT_EQ(work.left(0), 0.);
+  EXPECT_DOUBLE_EQ(step(small, small), 2.);
+  // More than all springs hold makes none stiffer any more,
+  step(0.5 * small, 0.5 * small);
+  EXPECT_DOUBLE_EQ(work.left(1), 0.5 * U);
+  // but those that lack it get it, as long as there is any.
+  memory[0].stored = 0.;
+  step(small, small);
+  EXPECT_DOUBLE_EQ(memory[0].stored, U);
+  EXPECT_DOUBLE_EQ(memory[1].stored, U);
+  EXPECT_EQ(work.left(1), 0.);
+  for (const double gets : {U, 0.75 * U})
+  {
+    memory[0].stored = 0.;
+    EXPECT_EQ(step(small, small), 0.);
+    EXPECT_NEAR(memory[0].stored, gets, 1e-12 * U);
+  }
 }
 
 TEST(Friction, coulomb_with_decay)

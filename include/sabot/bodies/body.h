@@ -61,8 +61,13 @@ struct ContactSurface
       holds, 1/2 on a plane, 1/4 on two; empty where all are whole. */
   std::vector<double> node_share;
   std::vector<SymmetryPlane> symmetry_planes; // the same on every rank
+  /** Parallel to nodes: edge_distances() [m]; empty where they change or are
+      not known. */
+  std::vector<double> edge_distance;
   double bulk_modulus = 0.;                   // [Pa], for the penalty
   double spacing = 0.;                        // [m], typical node distance
+  /** [m] between particles along the surface, at the start; at most. */
+  double largest_spacing = 0.;
 };
 
 /** Faces that bear a load, on this rank; of bodies of cells faces, of particles
@@ -88,6 +93,9 @@ struct SurfacePoint
   /** How far the normal is to be trusted beside another one: 1 on smooth
       parts, little on edges and corners. */
   double flatness = 0.;
+  /** 2 (1 - cosine) with the least cosine to the normal of the faces around, at
+      the start: the largest of the squares of their angles to it. */
+  double spread = 0.;
 };
 
 /**

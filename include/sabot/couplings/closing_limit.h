@@ -59,7 +59,8 @@ private:
     int a, b;        // of motions
     bool both_rigid; // or rigid and a plane
     double part, spacing;
-    double reference = 0.; // speed [m/s]
+    double stability_fraction; // of the springs between two bodies
+    double reference = 0.;     // speed [m/s]
   };
   /** Of rigid bodies always, of others every tenth time. */
   void find_motions();
@@ -68,7 +69,7 @@ private:
       stop all of it. With the spring phi m/dt^2 of the node it goes in by
       v dt sqrt(M/(phi m)), M the reduced mass of the bodies, which is to stay
       below a quarter of the spacing. Collective. */
-  double part_of_pair(const int a, const int b) const;
+  double part_of_pair(const Pair &pair) const;
   static double time_to_meet(const Motion &a, const Motion &b);
 
   const std::vector<Body *> bodies;

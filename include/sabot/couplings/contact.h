@@ -8,6 +8,7 @@
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/face_standing.h"
 #include "sabot/couplings/halo_forces.h"
+#include "sabot/couplings/shared_work.h"
 
 namespace sabot
 {
@@ -40,6 +41,10 @@ public:
   std::string kind() const override { return "contact"; }
   /** Of pairs (faces, nodes), both directions where both are listed. */
   std::vector<std::pair<int, int>> holds_apart() const override;
+  double stability_fraction() const override
+  {
+    return options.stability_fraction;
+  }
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
@@ -72,6 +77,7 @@ private:
     /** ContactPatch::radius() [m]; 0: it presses at a point. */
     double patch_radius = 0.;
     double share = 1.; // ContactSurface::node_share
+    double cut = 1.;   // ContactCandidate::cut
   };
   /** A group as a checkpoint holds it, by global numbers; its faces stand
      apart. Written bit by bit. */
@@ -83,7 +89,7 @@ private:
     Vec area_vector;
     SmoothNormal own;
     ContactMemory memory;
-    double wake, patch_radius, share;
+    double wake, patch_radius, share, cut;
   };
   struct SavedGroups
   {
@@ -115,8 +121,13 @@ private:
   /** Adds its faces to the list, too. */
   Group make_group(const SearchResult &found, const KeptNode &node,
                    const std::vector<std::size_t> &number_of_face);
-  /** Arrays per slot, for the present halo. */
+  /** Arrays per slot, for the present halo. Collective. */
   void reset_slots();
+  /** Per slot what @p of_surface [ContactSurface::nodes] says of its node,
+      @p otherwise where that is empty. Collective. */
+  std::vector<double>
+  gather_of_slots(std::vector<double> ContactSurface::*const of_surface,
+                  const double otherwise) const;
 
   // Forces
   /** Where everything starts: bodies may touch already. */
@@ -127,9 +138,11 @@ private:
       four of the face. Sets @p normal and @p depth. */
   void touch(const Group &group, const std::ptrdiff_t face,
              const FaceProjection &projection, Vec &normal, double &depth);
-  /** Of what is touched from number @p first on: sum w^2/m [1/kg] and mean
-      velocity. */
-  double compliance(const Group &group, const std::size_t first) const;
+  /** Of the node against what it touches from number @p first on [kg]: the
+      part that the model holds of the reduced mass that both have in the whole,
+      1/m = 1/m_node + sum w^2/m_touched, so that a model cut at planes of
+      symmetry has the same springs. And mean velocity of what is touched. */
+  double reduced_mass(const Group &group, const std::size_t first) const;
   Vec velocity_of_touched(const std::size_t first) const;
   /** Of friction per area [Pa], between a node and what it touches. */
   double shear_limit(const Group &group, const std::size_t first) const;
@@ -148,7 +161,9 @@ private:
   std::vector<ContactSurface> surfaces; // of the pairs' bodies
   HaloForces forces;
   std::vector<double> flow_stress; // per slot, at the last search; may be empty
+  std::vector<double> share;       // per slot, ContactSurface::node_share
   ContactPoints points;            // of the step
+  SharedWork shared_work;
   std::vector<TouchedNode> touched; // by the points, one after the other
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., traveled = 0.;  // [m]

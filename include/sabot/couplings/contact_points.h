@@ -5,6 +5,8 @@
 
 namespace sabot
 {
+class SharedWork;
+
 /**
  * A node that presses on something in this step, in the current frame: what a
  * coupling found, and the forces that spring and friction make of it. One point
@@ -25,6 +27,10 @@ struct ContactPoint
   ContactMemory *memory = nullptr; // null: a spring of a pair, which has a
                                    // potential and needs no books
   double fade = 1.;                // part of the force that acts, (0, 1]
+  /** Of a point with a memory: SharedWork::number_of() its bodies, and whether
+      its node is owned here. */
+  int pair = -1;
+  bool is_owned = false;
   /** The coupling's list of what is touched. */
   std::size_t first_touched = 0, last_touched = 0;
 
@@ -54,10 +60,12 @@ public:
   void add(const ContactPoint &point) { points.push_back(point); }
   /** Penalty and damping while approaching (SpringOptions), friction by
       spring_friction() below that of the law and what the metals bear, and of
-      both the part that is backed. Springs of pairs, which remember nothing,
-      have friction below what stops the sliding within two steps. @p dt: the
-      step just made [s], > 0. Local to a rank. */
-  void find_forces(const ContactOptions &options, const double dt);
+      both the part that SharedWork::back() finds. Springs of pairs, which
+      remember nothing, need no @p work and have friction below what stops the
+      sliding within two steps. @p dt: the step just made [s], > 0. Collective
+      with @p work, else local to a rank. */
+  void find_forces(const ContactOptions &options, const double dt,
+                   SharedWork *const work = nullptr);
   /** That bounds the stiffnesses of the points; the coupling lets it follow its
       steps and keeps it in checkpoints. */
   SteadyStep steady_step;

@@ -36,6 +36,10 @@ struct ContactCandidate
   ContactMemory memory;
   Vec area; // quarters of the vectors of its own faces, where asked for [m^2]
   SmoothNormal own; // of a particle on a sound surface
+  /** Of a node on a plane of symmetry of the faces' body that its own body,
+      which reaches beyond, does not have: 1/2, for the other half presses on
+      the image; a quarter on two. */
+  double cut;
 };
 
 /** What a search found; the same on every rank. A node that may touch several

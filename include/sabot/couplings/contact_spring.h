@@ -75,13 +75,14 @@ struct ContactMemory
       its force on the node at the last step [N]. */
   double stored = 0.;
   Vec spring = {};
+  Vec damping = {};  // on the node at the last step [N]
   Vec friction = {}; // on the node at the last step [N]
 
   /** The node is outside: it may come in anew. The side stays known. */
   void release()
   {
     depth = offset = stored = 0.;
-    spring = friction = Vec{};
+    spring = damping = friction = Vec{};
   }
 
   /** Part of @p new_depth that repels [m].
@@ -100,27 +101,37 @@ struct ContactMemory
   }
 };
 
+/** A spring that asks how much of its force it may have. */
+struct AskingSpring
+{
+  Vec force;           // k d n, on the node [N]
+  Vec velocity;        // of the node against what it touches [m/s]
+  double stiffness;    // k [N/m]
+  double reduced_mass; // m [kg]
+  double lent = 0.;    // that others have taken for it [J]
+};
+
 /**
  * Part of a spring's force, in [0, 1], that the work it has taken bears; keeps
  * the books in @p memory. Between crumbled or crumpled surfaces normals and
  * weights change with each other's disorder and k depth has no potential: a
  * spring may push its way apart further than it was pressed. It gives back what
- * it took, and what one step's motion is worth, k (|v| dt)^2/2.
- * @param spring: k depth n, on the node [N]; @p v: of the node against what it
- *   touches [m/s]; @p k: [N/m].
+ * it took, and what one step's motion is worth.
+ *
+ * The step just made moved the node by v dt along half of the last force, which
+ * acted in full, and half of this one, so that a constant stiffness before a
+ * plane has k depth^2/2 to round-off. The other half of this force, f, acts
+ * along the next step, whose velocity it changes itself. Its part p is thus the
+ * largest with
+ *
+ *     p f . v dt + (p f dt)^2/(2 m) <= stored + b k (v_n dt)^2/(2 (1 - phi)),
+ *     b = min(1, stored/(k d^2/2)),   phi = k dt^2/m,
+ *
+ * which with stored = k d^2/2 holds p = 1 at any speed.
+ * memory.stored becomes negative where the last force gave more.
  */
-inline double backed_part(ContactMemory &memory, const Vec spring, const Vec v,
-                          const double k, const double dt)
-{
-  // The mean of two steps' forces along the way between them: of a constant
-  // stiffness before a plane this is k depth^2/2 to round-off.
-  const double work = 0.5 * dot(memory.spring + spring, v) * dt;
-  const double available = memory.stored + 0.5 * k * norm_square(v) * dt * dt;
-  const double part = work > available ? available / work : 1.;
-  memory.stored = std::max(0., memory.stored - part * work);
-  memory.spring = part * spring;
-  return part;
-}
+double backed_part(ContactMemory &memory, const AskingSpring &spring,
+                   const double dt);
 
 /**
  * Friction on a node: a spring along the surface that gives way at the

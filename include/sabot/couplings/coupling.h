@@ -34,6 +34,8 @@ public:
   /** Pairs of bodies, by number, that it keeps from passing through each other;
       (a, a): parts of one body. */
   virtual std::vector<std::pair<int, int>> holds_apart() const { return {}; }
+  /** SpringOptions::stability_fraction of the springs that do; 0: none do. */
+  virtual double stability_fraction() const { return 0.; }
   /** Once, after the bodies were distributed, ties before others: they change
       the inertia of leaders and followers. Throws InputError, on all ranks,
       where the bodies do not fit. Collective. */

@@ -51,9 +51,9 @@ public:
   void clear();
   /** Once faces and halo are there; arguments of SurfaceNormals::build(). */
   void build_normals(const std::vector<std::vector<SymmetryPlane>> &planes,
-                     const double nearness)
+                     const double nearness, const std::vector<double> &reach)
   {
-    normals.build(planes, nearness);
+    normals.build(planes, nearness, reach);
   }
 
   /**

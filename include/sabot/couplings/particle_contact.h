@@ -9,6 +9,7 @@
 #include "sabot/couplings/particle_search.h"
 #include "sabot/couplings/particle_standing.h"
 #include "sabot/couplings/search_age.h"
+#include "sabot/couplings/shared_work.h"
 
 namespace sabot
 {
@@ -34,6 +35,10 @@ public:
   std::vector<std::pair<int, int>> holds_apart() const override
   {
     return pairs;
+  }
+  double stability_fraction() const override
+  {
+    return options.stability_fraction;
   }
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
@@ -108,8 +113,9 @@ private:
   std::vector<Member> members; // of the groups, one after the other
   std::vector<Slots> slots;    // parallel to groups
   std::vector<std::size_t> member_slots;
-  std::vector<NearParticle> near;      // of the group at hand
-  ContactPoints points;                // of the step
+  std::vector<NearParticle> near; // of the group at hand
+  ContactPoints points;           // of the step
+  SharedWork shared_work;
   std::vector<NearParticle> touched;   // by the points, one after the other
   std::vector<char> is_on_surface;     // per slot
   AlignedVector<SurfacePoint> surface; // per slot
@@ -123,6 +129,11 @@ private:
   double allowance = 0.; // [m], of travel until the next search
   SearchAge age;
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
+  double traveled = 0.;  // [m]
+  struct Depth
+  {
+    double initial = 0., largest = 0.;
+  } over_spacing;
   std::size_t n_deep = 0; // nodes so far inside that nothing holds them
 };
 } // namespace sabot

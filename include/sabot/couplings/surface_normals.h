@@ -17,6 +17,8 @@ struct SmoothNormal
       2 (1 - |sum A_i|/sum |A_i|), the mean of the squares of their angles to
       it. 0 on a plane, 0.59 on an edge and 0.85 on a corner of a box. */
   double spread = 0.;
+  /** Of a plane: how far it goes on, in spacings; 0: not known. */
+  double reach = 0.;
 };
 
 /** Whether a node's own normal has a say in the common one. */
@@ -26,7 +28,10 @@ bool is_smooth(const SmoothNormal &own);
  * The direction along which two surfaces press on each other, as the outward
  * normal of @p its: the mean of the two normals, each with the inverse of its
  * spread, for that is how far it may be off. So a plane decides before what is
- * bent, a fine mesh before a coarse one, and two equal ones share; from where
+ * bent, a fine mesh before a coarse one, and two equal ones share. Of two
+ * planes at an angle one meets the other with an edge, and the one that goes on
+ * further, which has no edge there, decides: alone from a spacing more on. From
+ * where
  * faces differ by 25 degrees an own normal fades, and an edge has none.
  */
 Vec common_normal(const SmoothNormal &its, const SmoothNormal &own);
@@ -61,9 +66,10 @@ public:
   {
   }
   /** For the present faces and slots. @p planes: of symmetry, by body;
-      @p nearness: within which a node lies on one [m]. */
+      @p nearness: within which a node lies on one [m]; @p reach: of the planes
+      around each slot, in spacings; empty: not known. */
   void build(const std::vector<std::vector<SymmetryPlane>> &planes,
-             const double nearness);
+             const double nearness, const std::vector<double> &reach);
   /** Of a node among all of its faces. */
   SmoothNormal of_node(const std::size_t slot) const;
   /** Of face number @p face at the place with these weights of its corners. */
@@ -81,6 +87,7 @@ private:
   std::vector<std::size_t> first_of_slot, face_of_slot; // ascending
   std::vector<std::vector<SymmetryPlane>> planes;       // by body
   double nearness = 0.;
+  std::vector<double> reach_of_slot;
 };
 } // namespace sabot
 

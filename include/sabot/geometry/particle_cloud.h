@@ -81,6 +81,15 @@ ParticleCloud make_mesh_cloud(const HexMesh &mesh);
 AlignedVector<Vec> outward_normals(const ParticleCloud &cloud,
                                    const std::uint32_t without);
 
+/**
+ * Per particle the distance between particles along the skin, without the
+ * boundary ids in @p without: the root of the mean area of the quadrilaterals
+ * around it [m]. 0 where there are none. Shells of a ball are finer along its
+ * radius than around, so the mean over the volume would tell too little.
+ */
+std::vector<double> surface_spacings(const ParticleCloud &cloud,
+                                     const std::uint32_t without);
+
 /** The shape of the cloud; @p cut: boundary ids on planes of symmetry, a bit
     each. */
 Outline outline_of(const ParticleCloud &cloud, const std::uint32_t cut);

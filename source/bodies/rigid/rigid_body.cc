@@ -118,33 +118,6 @@ void RigidBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   node_masses.clear();
 }
 
-void RigidBody::take_faces(const LocalPart &part)
-{
-  double area = 0.;
-  for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
-  {
-    std::array<std::size_t, 4> face;
-    std::array<Vec, 4> x;
-    bool complete = true;
-    for (int a = 0; a < 4; ++a)
-    {
-      const GlobalIndex node = mesh.boundary_faces[f][a];
-      const auto found = part.local.find(node);
-      complete = complete && found != part.local.end();
-      face[a] = found != part.local.end() ? found->second : 0;
-      x[a] = vec(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]);
-    }
-    area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
-    if (complete)
-    {
-      boundary_faces.push_back(face);
-      face_id.push_back(f);
-      boundary_id.push_back(mesh.boundary_id[f]);
-    }
-  }
-  typical_spacing = std::sqrt(area / mesh.boundary_faces.size());
-}
-
 Mat RigidBody::matrix(const std::array<double, 4> &q)
 {
   const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -365,32 +338,5 @@ void RigidBody::visit_state(StateVisitor &visitor)
   visitor.visit_value("prescribed spin", prescribed_spin);
   visitor.visit_value("external work", work);
   visitor.visit_value("reaction impulse", impulse);
-}
-
-LoadedSurface
-RigidBody::loaded_surface(const std::vector<unsigned int> &ids) const
-{
-  LoadedSurface surface;
-  for (std::size_t f = 0; f < boundary_faces.size(); ++f)
-    if (std::find(ids.begin(), ids.end(), boundary_id[f]) != ids.end())
-      surface.faces.push_back(boundary_faces[f]);
-  return surface;
-}
-
-ContactSurface RigidBody::contact_surface() const
-{
-  ContactSurface surface;
-  surface.faces = boundary_faces;
-  surface.face_id = face_id;
-  for (const auto &face : boundary_faces)
-    for (const std::size_t a : face)
-      if (a < nodal_state.n_owned)
-        surface.nodes.push_back(a);
-  std::sort(surface.nodes.begin(), surface.nodes.end());
-  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()),
-                      surface.nodes.end());
-  surface.bulk_modulus = material->bulk_modulus();
-  surface.spacing = typical_spacing;
-  return surface;
 }
 } // namespace sabot

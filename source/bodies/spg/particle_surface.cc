@@ -57,6 +57,16 @@ void ParticleSurface::extend(const ParticleCloud &cloud,
   {
     const GlobalIndex node = hosts[i - before];
     on_face[i] = cloud.on_face[node];
+  const AlignedVector<Vec> normals = outward_normals(cloud, symmetry_faces);
+  const std::vector<double> spacings = surface_spacings(cloud, symmetry_faces);
+  largest_spacing = *std::max_element(spacings.begin(), spacings.end());
+  spacing.resize(owned.size());
+  on_face.resize(owned.size());
+  outward.resize(owned.size());
+  for (std::size_t i = 0; i < owned.size(); ++i)
+  {
+    on_face[i] = cloud.on_face[owned[i]];
+    spacing[i] = spacings[owned[i]];
     const unsigned int planes = symmetry_axes(i);
     // Its mirror image has the other half of a plane's facets.
     Vec normal = normals[node];
@@ -127,7 +137,7 @@ unsigned int ParticleSurface::symmetry_axes(const std::size_t i) const
 }
 
 ContactSurface ParticleSurface::contact_surface(const double bulk_modulus,
-                                                const double spacing) const
+                                                const double mean) const
 {
   ContactSurface surface;
   surface.nodes.resize(on_face.size());
@@ -139,12 +149,12 @@ ContactSurface ParticleSurface::contact_surface(const double bulk_modulus,
           std::ldexp(1., -__builtin_popcount(symmetry_axes(i))));
   surface.symmetry_planes = symmetry_planes;
   surface.bulk_modulus = bulk_modulus;
-  surface.spacing = spacing;
+  surface.spacing = mean;
+  surface.largest_spacing = largest_spacing;
   return surface;
 }
 
-SurfacePoint ParticleSurface::point(const std::size_t i, const Mat &F,
-                                    const double spacing) const
+SurfacePoint ParticleSurface::point(const std::size_t i, const Mat &F) const
 {
   // From the cosine of the normals that meet at a particle: an edge of 90
   // degrees has none of its own, a facet of a round side (0.92 with eight
@@ -156,10 +166,11 @@ SurfacePoint ParticleSurface::point(const std::size_t i, const Mat &F,
     return point;
   point.flatness =
       std::clamp((cosine - edge) / (face - edge), least_flatness, 1.);
+  point.spread = 2. * std::max(0., 1. - cosine);
   point.normal = transpose(inverse(F)) * outward[i];
   point.normal *= 1. / norm(point.normal);
-  point.spacing = spacing * std::sqrt(std::abs(determinant(F)) /
-                                      norm(transpose(F) * point.normal));
+  point.spacing = spacing[i] * std::sqrt(std::abs(determinant(F)) /
+                                         norm(transpose(F) * point.normal));
   return point;
 }
 

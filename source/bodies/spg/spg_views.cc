@@ -12,8 +12,7 @@ namespace sabot
 {
 SurfacePoint SpgViews::surface_point(const std::size_t i) const
 {
-  return surface.point(i, body.fields.deformation_gradient(i),
-                       body.kernel.mean_spacing());
+  return surface.point(i, body.fields.deformation_gradient(i));
 }
 
 VolumePoint SpgViews::volume_point(const std::size_t i) const

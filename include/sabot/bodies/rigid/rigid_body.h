@@ -163,7 +163,11 @@ private:
   std::vector<char> owned_cell;
   std::vector<std::array<std::size_t, 4>> boundary_faces;
   std::vector<GlobalIndex> face_id;
-  std::vector<unsigned int> boundary_id; // of the faces
+  struct Boundary
+  {
+    std::vector<unsigned int> id;      // of the faces
+    std::vector<double> edge_distance; // of local nodes [m]
+  } boundary;
   double typical_spacing = 0.;
 
   double mass = 0.;                // [kg]

@@ -71,14 +71,13 @@ public:
       node_share is 1/2 per plane of symmetry through the particle; no faces.
       Pa and m, of the body as a whole. */
   ContactSurface contact_surface(const double bulk_modulus,
-                                 const double spacing) const;
+                                 const double mean) const;
   /** Owned particle @p i, @p F its deformation gradient; normals go with
       F^-T, areas with det F over the length of F^T n. Normal F^-T n/|F^-T
-      n|, spacing times sqrt(det F/|F^T n_now|) [m]; flatness goes linearly
-      from an edge of 90 degrees (cosine 0.75, little) to a facet (0.9, 1).
-      Zero where it has no normal. */
-  SurfacePoint point(const std::size_t i, const Mat &F,
-                     const double spacing) const;
+      n|, spacing that along the skin times sqrt(det F/|F^T n_now|) [m];
+      flatness goes linearly from an edge of 90 degrees (cosine 0.75, little)
+      to a facet (0.9, 1). Zero where it has no normal. */
+  SurfacePoint point(const std::size_t i, const Mat &F) const;
 
 private:
   void keep_shares(const ParticleCloud &cloud,
@@ -93,6 +92,8 @@ private:
   std::vector<SymmetryPlane> symmetry_planes;
   std::vector<std::uint32_t> on_face; // owned
   AlignedVector<Vec> outward;         // owned, at the start, outward_normals()
+  std::vector<double> spacing;        // owned, at the start, surface_spacings()
+  double largest_spacing = 0.;        // of all
   std::set<unsigned int> kept_faces;  // boundary ids
   /** Of the kept faces, by particle; local numbers. */
   std::vector<ParticleCloud::FaceShare> kept_shares;
