@@ -4,6 +4,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/output/first_rank.h"
 #include "sabot/output/hdf5_tools.h"
 #include "sabot/output/hdf5_writer.h"
 
@@ -300,17 +301,8 @@ CheckpointFolder::CheckpointFolder(const std::string &folder,
 {
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);
-  std::string problem;
-  if (rank == 0)
-    try
-    {
-      kept = std::make_unique<KeptFolder>(folder);
-    }
-    catch (const IOError &e)
-    {
-      problem = e.what();
-    }
-  throw_together(problem);
+  on_first_rank(communicator, "write a checkpoint",
+                [&]() { kept = std::make_unique<KeptFolder>(folder); });
 }
 
 void CheckpointFolder::throw_together(const std::string &problem) const

@@ -3,6 +3,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/output/first_rank.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -82,36 +83,26 @@ FileLock::~FileLock()
 FolderLock::FolderLock(const std::string &folder, const bool makes_folder,
                        MPI_Comm communicator)
 {
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
-  std::string problem;
-  if (rank == 0)
-    try
-    {
-      if (makes_folder)
-        make_folder(folder);
-      constexpr int most_tries = 20;
-      constexpr std::chrono::milliseconds pause(100);
-      for (int t = 0; t < most_tries && std::filesystem::is_directory(folder);
-           ++t)
+  on_first_rank(
+      communicator, "lock the folder",
+      [&]()
       {
-        lock = std::make_unique<FileLock>(folder + "/run.lock");
-        if (lock->is_held())
-          break;
-        std::this_thread::sleep_for(pause);
-      }
-      if (lock && !lock->is_held())
-        problem = "folder \"" + folder + "\" is in use by another run" +
-                  (lock->holder().empty() ? "" : " (" + lock->holder() + ")");
-    }
-    catch (const IOError &e)
-    {
-      problem = e.what();
-    }
-  int bad = !problem.empty();
-  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
-  if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not lock the folder"
-                                  : problem);
+        if (makes_folder)
+          make_folder(folder);
+        constexpr int most_tries = 20;
+        constexpr std::chrono::milliseconds pause(100);
+        for (int t = 0; t < most_tries && std::filesystem::is_directory(folder);
+             ++t)
+        {
+          lock = std::make_unique<FileLock>(folder + "/run.lock");
+          if (lock->is_held())
+            break;
+          std::this_thread::sleep_for(pause);
+        }
+        if (lock && !lock->is_held())
+          throw IOError(
+              "folder \"" + folder + "\" is in use by another run" +
+              (lock->holder().empty() ? "" : " (" + lock->holder() + ")"));
+      });
 }
 } // namespace sabot

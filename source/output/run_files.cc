@@ -5,6 +5,7 @@
 #include "sabot/base/error_report.h"
 #include "sabot/base/text.h"
 #include "sabot/bodies/body.h"
+#include "sabot/output/first_rank.h"
 #include "sabot/output/vtu_writer.h"
 
 namespace sabot
@@ -64,25 +65,13 @@ void RunFiles::write_history()
   if (n_rows() == n_written)
     return;
   n_written = n_rows();
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
-  std::string problem;
-  if (rank == 0)
-    try
-    {
-      if (kept)
-        kept->check();
-      history.write(folder + "/history.h5");
-    }
-    catch (const IOError &e)
-    {
-      problem = e.what();
-    }
-  int bad = !problem.empty();
-  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
-  if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not write its output"
-                                  : problem);
+  on_first_rank(communicator, "write its output",
+                [&]()
+                {
+                  if (kept)
+                    kept->check();
+                  history.write(folder + "/history.h5");
+                });
 }
 
 void RunFiles::visit_history(StateVisitor &visitor)

@@ -6,6 +6,7 @@
 #include "sabot/base/stop_signals.h"
 #include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/output/first_rank.h"
 #include "sabot/simulation/plan.h"
 #include "sabot/simulation/resume.h"
 #include "sabot/simulation/run_quality.h"
@@ -104,26 +105,17 @@ ExitCode Run::execute(const std::string &checkpoint)
 
 void Run::open_folder(const bool append)
 {
-  std::string problem;
-  if (rank == 0)
-    try
-    {
-      files.keep_folder();
-      log.open(files.folder + "/log.txt", append);
-      // While the run goes on, nothing says that it is finished.
-      remove_file(files.folder + "/result.json");
-      write_text(files.folder + "/parameters.prm",
-                 parameters_file(version(), scene.expanded_parameters()));
-    }
-    catch (const IOError &e)
-    {
-      problem = e.what();
-    }
-  int bad = !problem.empty();
-  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
-  if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not write its output"
-                                  : problem);
+  on_first_rank(communicator, "write its output",
+                [&]()
+                {
+                  files.keep_folder();
+                  log.open(files.folder + "/log.txt", append);
+                  // While the run goes on, nothing says that it is finished.
+                  remove_file(files.folder + "/result.json");
+                  write_text(
+                      files.folder + "/parameters.prm",
+                      parameters_file(version(), scene.expanded_parameters()));
+                });
   for (const auto &output : scene.outputs)
     output->open(files);
 }
@@ -291,21 +283,10 @@ void Run::write_result(const std::string &status, const std::string &reason)
   const nlohmann::ordered_json result =
       make_result(scene, summary, balance, forces, control_shares, timers,
                   zones, communicator);
-  std::string problem;
-  if (rank == 0)
-    try
-    {
-      write_text(files.folder + "/result.json", result.dump(2) + "\n");
-    }
-    catch (const IOError &e)
-    {
-      problem = e.what();
-    }
-  int bad = !problem.empty();
-  MPI_Bcast(&bad, 1, MPI_INT, 0, communicator);
-  if (bad)
-    throw IOError(problem.empty() ? "rank 0 could not write its output"
-                                  : problem);
+  on_first_rank(
+      communicator, "write its output",
+      [&]()
+      { write_text(files.folder + "/result.json", result.dump(2) + "\n"); });
 
   char text[200];
   std::snprintf(text, sizeof(text),
