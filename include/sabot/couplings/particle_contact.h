@@ -128,8 +128,6 @@ private:
   double skin = 0.;      // [m], by which candidates may approach
   double allowance = 0.; // [m], of travel until the next search
   SearchAge age;
-  double initial_over_spacing = 0., penetration_over_spacing = 0.;
-  double traveled = 0.;  // [m]
   struct Depth
   {
     double initial = 0., largest = 0.;

@@ -19,7 +19,7 @@ namespace sabot
 {
 void ParticleIntake::set_up()
 {
-  normals = outward_normals(body.cloud, body.options.symmetry_faces);
+  skin = body.surface.skin_of(body.cloud);
   if (body.options.symmetry_faces != 0)
     body.constraints.expect(VelocityConstraints::Holder::symmetry);
   if (body.options.clamped_faces != 0)
@@ -108,8 +108,11 @@ void ParticleIntake::extend(const std::vector<GlobalIndex> &new_hosts)
   body.failure.extend(n, body.residual_strength);
   body.stable.extend(n);
   body.stabilization.extend(n);
-  body.surface.extend(body.cloud, normals, new_hosts,
-                      body.options.clamped_faces, body.constraints);
+  for (const GlobalIndex host_node : hosts)
+    largest_spacing = std::max(largest_spacing, skin.spacing[host_node]);
+  body.surface.set_largest_spacing(largest_spacing);
+  body.surface.extend(body.cloud, skin, new_hosts, body.options.clamped_faces,
+                      body.constraints);
 }
 
 void ParticleIntake::fill_new(const std::size_t i, const std::size_t entry)

@@ -39,37 +39,35 @@ void ParticleSurface::distribute(const ParticleCloud &cloud,
                                  const std::uint32_t clamped_faces,
                                  VelocityConstraints &constraints)
 {
-  extend(cloud, outward_normals(cloud, symmetry_faces), owned, clamped_faces,
-         constraints);
+  const Skin skin = skin_of(cloud);
+  largest_spacing = *std::max_element(skin.spacing.begin(), skin.spacing.end());
+  extend(cloud, skin, owned, clamped_faces, constraints);
   keep_shares(cloud, owned);
 }
 
-void ParticleSurface::extend(const ParticleCloud &cloud,
-                             const AlignedVector<Vec> &normals,
+ParticleSurface::Skin ParticleSurface::skin_of(const ParticleCloud &cloud) const
+{
+  return {outward_normals(cloud, symmetry_faces),
+          surface_spacings(cloud, symmetry_faces)};
+}
+
+void ParticleSurface::extend(const ParticleCloud &cloud, const Skin &skin,
                              const std::vector<GlobalIndex> &hosts,
                              const std::uint32_t clamped_faces,
                              VelocityConstraints &constraints)
 {
-  const std::size_t before = on_face.size();
-  on_face.resize(before + hosts.size());
-  outward.resize(on_face.size());
-  for (std::size_t i = before; i < on_face.size(); ++i)
+  const std::size_t before = on_face.size(), n = before + hosts.size();
+  on_face.resize(n);
+  outward.resize(n);
+  spacing.resize(n);
+  for (std::size_t i = before; i < n; ++i)
   {
     const GlobalIndex node = hosts[i - before];
     on_face[i] = cloud.on_face[node];
-  const AlignedVector<Vec> normals = outward_normals(cloud, symmetry_faces);
-  const std::vector<double> spacings = surface_spacings(cloud, symmetry_faces);
-  largest_spacing = *std::max_element(spacings.begin(), spacings.end());
-  spacing.resize(owned.size());
-  on_face.resize(owned.size());
-  outward.resize(owned.size());
-  for (std::size_t i = 0; i < owned.size(); ++i)
-  {
-    on_face[i] = cloud.on_face[owned[i]];
-    spacing[i] = spacings[owned[i]];
+    spacing[i] = skin.spacing[node];
     const unsigned int planes = symmetry_axes(i);
     // Its mirror image has the other half of a plane's facets.
-    Vec normal = normals[node];
+    Vec normal = skin.normal[node];
     const double cosine = norm(normal);
     for (int d = 0; d < 3; ++d)
       if (planes >> d & 1)

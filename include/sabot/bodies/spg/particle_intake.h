@@ -4,6 +4,7 @@
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/conversion/conversion.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/geometry/particle_cloud.h"
 
 #include <mpi.h>
@@ -18,7 +19,6 @@ class BondFailure;
 class LagrangianKernel;
 class MaterialPoints;
 class ParticleApproximation;
-class ParticleSurface;
 class ResidualStrength;
 class SpgStableStep;
 class Stabilization;
@@ -106,7 +106,8 @@ private:
   const Rooms body;
   std::vector<GlobalIndex> hosts; // of every particle, by number
   std::unordered_map<GlobalIndex, std::size_t> local_of_host; // owned
-  AlignedVector<Vec> normals; // of the host's nodes
+  ParticleSurface::Skin skin;  // of all nodes of the host
+  double largest_spacing = 0.; // along the skin, of all particles [m]
   unsigned int n_taken = 0;
   GlobalIndex n_measured = 0; // particles at the last has_grown_much()
   // While matter is taken

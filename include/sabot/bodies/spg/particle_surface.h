@@ -46,12 +46,21 @@ public:
                   const std::uint32_t clamped_faces,
                   VelocityConstraints &constraints);
 
+  /** What a surface is made of, of all particles of a cloud. */
+  struct Skin
+  {
+    AlignedVector<Vec> normal;   // outward_normals()
+    std::vector<double> spacing; // surface_spacings() [m]
+  };
+  Skin skin_of(const ParticleCloud &cloud) const;
   /** More particles, of the nodes @p hosts of the cloud, behind those that are
-      there. @p normals: outward_normals() of the cloud. */
-  void extend(const ParticleCloud &cloud, const AlignedVector<Vec> &normals,
+      there; @p skin of that cloud. */
+  void extend(const ParticleCloud &cloud, const Skin &skin,
               const std::vector<GlobalIndex> &hosts,
               const std::uint32_t clamped_faces,
               VelocityConstraints &constraints);
+  /** Of a body that grows, over all ranks [m]. */
+  void set_largest_spacing(const double largest) { largest_spacing = largest; }
 
   void keep_faces(const std::vector<unsigned int> &ids) override
   {
