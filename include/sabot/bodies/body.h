@@ -64,8 +64,8 @@ struct ContactSurface
   /** Parallel to nodes: edge_distances() [m]; empty where they change or are
       not known. */
   std::vector<double> edge_distance;
-  double bulk_modulus = 0.;                   // [Pa], for the penalty
-  double spacing = 0.;                        // [m], typical node distance
+  double bulk_modulus = 0.; // [Pa], for the penalty
+  double spacing = 0.;      // [m], typical node distance
   /** [m] between particles along the surface, at the start; at most. */
   double largest_spacing = 0.;
 };
