@@ -55,8 +55,7 @@ public:
   {
     const std::string start = "Bodies/" + body + "/",
                       sector = file.value(start + "Sector", "full");
-    if (sector == "full" ||
-        file.value(start + "Discretization", "FEM") == "rigid")
+    if (sector == "full")
       return;
     const std::size_t needed = sector == "half" ? 1 : 2,
                       n = split_names(file.value(start + "Symmetry faces", ""))
@@ -111,7 +110,8 @@ std::vector<std::string> slips_of_entries(const ParameterFile &file,
   {
     slips.look_at_angle(body->name);
     slips.look_at_grading(body->name);
-    slips.look_at_sector(body->name);
+    if (body->facts().deforms)
+      slips.look_at_sector(body->name);
     slips.look_at_size(body->name, outlines[body->id]);
   }
   for (const std::string &name : split_names(file.value("List of outputs", "")))
