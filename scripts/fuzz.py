@@ -237,7 +237,7 @@ def main():
                         help="share of the valid inputs that are also run")
     parser.add_argument("--timeout", type=float, default=20.,
                         help="seconds of the processor for each input")
-    parser.add_argument("--memory", type=int, default=8, help="limit in GB")
+    parser.add_argument("--memory", type=int, default=2, help="limit in GB")
     parser.add_argument("--keep", default="fuzz-findings")
     arguments = parser.parse_args()
     arguments.program = os.path.abspath(arguments.program)
