@@ -347,6 +347,57 @@ class Scenes(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(text, done.stdout)
 
+    def test_a_zone_finds_itself_on_1_2_and_3_ranks_and_resumed(self):
+        scene = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
+        coarse = ("--quiet", "--set", "End time=12 us",
+                  "--set", "Outputs/fields/Interval=6 us",
+                  "--set", "Bodies/plate/Cell size=2.1 mm",
+                  "--set", "Bodies/projectile/Cell size=2.1 mm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("found%d" % ranks)
+            done = sabot("run", scene, "-o", out, *coarse, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+            r = result(out)
+            self.assertLess(r["energy_residual_max"], 0.005)
+            self.assertLess(r["momentum_residual_max"], 1e-9)
+            found = r["found zones"]
+            for name in ("core", "nose"):
+                self.assertGreater(found[name]["particles"], 20)
+            # Below the projectile, through the plate.
+            self.assertAlmostEqual(found["core"]["size"][2], 12.7e-3,
+                                   delta=1e-9)
+            self.assertLess(found["core"]["size"][0], 25e-3)
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        parted = folder("found-parted")
+        done = sabot("run", scene, "-o", parted, *coarse, "--set",
+                     "Checkpoint interval in steps=%d" % (0.6 * r["steps"]),
+                     "--set", "Checkpoint at the end=false", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        os.remove(os.path.join(parted, "history.h5"))
+        done = sabot("resume", parted, "--quiet", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        with open(os.path.join(parted, "history.h5"), "rb") as file:
+            self.assertEqual(histories[0], file.read())
+
+    def test_what_a_zone_that_finds_itself_cannot_have(self):
+        scene = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
+        for entry, text in (
+                ("core/Carve from=", "needs a host"),
+                ("core/Converts by=plastic strian", "plastic strain"),
+                ("core/Material=al6061-t6-projectile", "remove the entry"),
+                ("core/Clamped faces=-z", "remove the entry"),
+                ("core/Approximation=convex exponential", "least squares"),
+                ("core/Conversion interval=0", "Conversion interval"),
+                ("plate/Heat conduction=true", "turn into particles"),
+                ("plate/Smallest step=10 ns", "turn into")):
+            done = sabot("check", scene, "--set", "Bodies/" + entry)
+            self.assertEqual(done.returncode, 1, entry + done.stdout)
+            self.assertIn(text, done.stdout)
+
     def test_a_rod_enters_armor_on_1_and_2_ranks(self):
         scene = os.path.join(SOURCE, "prm/penetration/coarse.prm")
         histories = []
