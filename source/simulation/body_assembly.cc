@@ -331,16 +331,6 @@ void BodyAssembly::refuse_with_growth(const Carving &carving) const
                            "\"; remove the entry, or let that zone be fixed");
   }
   for (const std::string &body : {carving.body, carving.zone})
-  {
-    const EnteredSubsection entered(prm, "Bodies", body);
-    if (prm.get("Smallest step") != "none")
-      throw InputError("Bodies/" + body + "/Smallest step",
-                       "adds mass to nodes, which cells that turn into "
-                       "particles would not hand on; remove the entry, or let "
-                       "the zone \"" +
-                           carving.zone + "\" be fixed");
-  }
-  for (const std::string &body : {carving.body, carving.zone})
     if (trim(file.value("Bodies/" + body + "/Smallest step", "none")) != "none")
       throw InputError("Bodies/" + body + "/Smallest step",
                        "mass is not added to a body whose cells turn into "

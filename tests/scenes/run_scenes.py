@@ -346,6 +346,12 @@ class Scenes(unittest.TestCase):
                          "--set", "Bodies/block/" + entry)
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(text, done.stdout)
+        growing = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
+        for body in ("plate", "core"):
+            done = sabot("check", growing, "--set",
+                         "Bodies/%s/Smallest step=10 ns" % body)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("mass is not added", done.stdout)
 
     def test_a_zone_finds_itself_on_1_2_and_3_ranks_and_resumed(self):
         scene = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
