@@ -126,6 +126,17 @@ TEST(Abaqus, includes_and_continued_lines)
   EXPECT_TRUE(has(refusal("loop.inp", "*Include, input=loop.inp\n"), "deeply"));
 }
 
+TEST(Abaqus, an_instance_without_end_has_no_members_elsewhere)
+{
+  const std::string text =
+      "*Part, name=P\n" + deck + "*Nset, nset=low, generate\n1, 9, 1\n" +
+      "*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n"
+      "*End part=P\n*Instance, name=P-2, part=P\n9., 0., 0.\n"
+      "*End Instance\n*Nset, nset=far, instance=P-2\nlow\n*End Assembly\n";
+  const std::string message = refusal("open.inp", text);
+  EXPECT_TRUE(has(message, "a member that is not there")) << message;
+}
+
 TEST(Abaqus, in_latin_1_is_told_by_line)
 {
   // Größe and Stück, as a German Windows saves them.

@@ -136,6 +136,27 @@ FileMesh read_by_meshio(const MeshFile &file)
     file.refuse("what meshio makes of it has no hexahedra that can be read");
   }
 }
+/** What a damaged file may make of a reader's numbers, before anybody takes
+    them for an index. */
+void check_numbers(const FileMesh &mesh, const MeshFile &file)
+{
+  const auto check = [&](const auto &numbers, const std::size_t n)
+  {
+    for (const FileIndex number : numbers)
+      if (number >= n)
+        file.refuse("a set or cell has a member that is not there; a part or "
+                    "an instance may have no end");
+  };
+  for (const auto &cell : mesh.cells)
+    check(cell, mesh.vertices.size());
+  for (const auto &set : mesh.cell_sets)
+    check(set.cells, mesh.cells.size());
+  for (const auto &set : mesh.node_sets)
+    check(set.nodes, mesh.vertices.size());
+  for (const auto &set : mesh.face_sets)
+    for (const FileFace &face : set.faces)
+      check(face, mesh.vertices.size());
+}
 } // namespace
 
 FileMesh read_mesh_file(const MeshFile &file)
@@ -144,6 +165,7 @@ FileMesh read_mesh_file(const MeshFile &file)
   if (!reader)
     file.text(); // is it there at all?
   FileMesh mesh = reader ? reader->read(file) : read_by_meshio(file);
+  check_numbers(mesh, file);
   const auto clean = [](auto &sets)
   {
     for (auto &set : sets)
