@@ -14,6 +14,7 @@ FREE = {"base", "kernels", "materials", "geometry", "bodies", "bodies/fem",
         "study", "reference", ""}
 BODY, COUPLING = "bodies/body.h", "couplings/coupling.h"
 LOAD = "loads/load.h"
+CONVERSION = "bodies/conversion.h"  # what bodies give and take, as BODY
 # Folder: folders or single headers that it may include, besides its own.
 ALLOWED = {
     "kernels": set(),
@@ -26,7 +27,7 @@ ALLOWED = {
     "bodies/fem/hourglass": {"base", "kernels", "materials", "bodies/fem"},
     "bodies/rigid": {"base", "kernels", "materials", "geometry", "bodies"},
     "bodies/spg": {"base", "kernels", "materials", "geometry", "bodies"},
-    "couplings": {"base", "kernels", BODY},
+    "couplings": {"base", "kernels", BODY, CONVERSION},
     "loads": {"base", "kernels", BODY, "geometry/face_names.h"},
     "integrator": {"base", "kernels", BODY, COUPLING, LOAD},
     "output": {"base", BODY, COUPLING},

@@ -4,7 +4,7 @@
 #include "sabot/base/choice.h"
 #include "sabot/base/error_report.h"
 #include "sabot/base/text.h"
-#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/conversion.h"
 #include "sabot/geometry/item_count.h"
 #include "sabot/geometry/mesh_import.h"
 #include "sabot/geometry/mesh_layers.h"

@@ -2,7 +2,7 @@
 #include "sabot/simulation/found_zone.h"
 
 #include "sabot/base/text.h"
-#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/conversion.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/body.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 #include "sabot/geometry/shape.h"
 #include "sabot/geometry/turn.h"
 

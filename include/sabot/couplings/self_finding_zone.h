@@ -2,7 +2,7 @@
 #define sabot_couplings_self_finding_zone_h
 
 #include "sabot/base/exact_sum.h"
-#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/conversion.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/couplings/tie.h"
 

@@ -3,7 +3,7 @@
 
 #include "sabot/base/parameter_file.h"
 #include "sabot/bodies/body.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 #include "sabot/couplings/coupling.h"
 #include "sabot/geometry/carving.h"
 #include "sabot/geometry/turn.h"

@@ -1,6 +1,6 @@
 // Cells turn into particles ahead of a crack that comes their way.
 #include "sabot/base/registry.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 
 namespace sabot
 {

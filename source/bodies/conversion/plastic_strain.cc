@@ -1,7 +1,7 @@
 // Cells turn into particles before they have flowed so far as to fail.
 #include "sabot/base/error.h"
 #include "sabot/base/registry.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 #include "sabot/materials/material.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Cells turn into particles before they are too distorted to be trusted.
 #include "sabot/base/registry.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 
 namespace sabot
 {

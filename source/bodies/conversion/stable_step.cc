@@ -1,6 +1,6 @@
 // Cells turn into particles before they rule the step.
 #include "sabot/base/registry.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 
 namespace sabot
 {

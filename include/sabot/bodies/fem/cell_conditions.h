@@ -3,7 +3,7 @@
 
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/bodies/fem/living_cells.h"
 

@@ -5,7 +5,7 @@
 #include "sabot/base/ledger.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/state_visitor.h"
-#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/conversion.h"
 #include "sabot/bodies/fem/hexahedra.h"
 #include "sabot/bodies/fem/living_cells.h"
 

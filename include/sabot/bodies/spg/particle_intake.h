@@ -2,7 +2,7 @@
 #define sabot_bodies_spg_particle_intake_h
 
 #include "sabot/base/state_visitor.h"
-#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/conversion.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/geometry/particle_cloud.h"

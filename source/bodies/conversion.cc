@@ -1,5 +1,5 @@
 // What cells hand to their nodes, and the energy that stresses hold.
-#include "sabot/bodies/conversion/conversion.h"
+#include "sabot/bodies/conversion.h"
 
 #include <cmath>
 

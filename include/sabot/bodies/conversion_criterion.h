@@ -1,5 +1,5 @@
-#ifndef sabot_bodies_conversion_conversion_criterion_h
-#define sabot_bodies_conversion_conversion_criterion_h
+#ifndef sabot_bodies_conversion_criterion_h
+#define sabot_bodies_conversion_criterion_h
 
 #include <array>
 #include <cstddef>

@@ -1,10 +1,10 @@
-#ifndef sabot_bodies_conversion_conversion_h
-#define sabot_bodies_conversion_conversion_h
+#ifndef sabot_bodies_conversion_h
+#define sabot_bodies_conversion_h
 
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/types.h"
-#include "sabot/bodies/conversion/conversion_criterion.h"
+#include "sabot/bodies/conversion_criterion.h"
 #include "sabot/kernels/vec.h"
 #include "sabot/materials/material.h"
 
