@@ -358,7 +358,8 @@ class Input(unittest.TestCase):
         self.assertWarns(with_zone("10 mm, 10 mm, 10 mm"))
         # Thin, but all of it is.
         self.assertWarns(scene({"plate": dict(plate,
-                                              Size="20 mm, 20 mm, 0.1 mm")}))
+                                              Size="20 mm, 20 mm, 0.1 mm")}),
+                         "more than the body is across")
 
     def test_values_of_materials_with_a_lost_unit(self):
         cook = {"Model": "Johnson-Cook", "Density": "7830 kg/m^3",
@@ -438,7 +439,7 @@ class Input(unittest.TestCase):
         self.assertRefused("include other.prm\n", "includes itself")
         # The same file in two branches of a family, and in two sections.
         write("steel.prm", section("Materials", {"steel": STEEL}))
-        write("cells.prm", "set Cell size = 2 mm\nset Material = steel\n")
+        write("cells.prm", "set Cell size = 0.5 mm\nset Material = steel\n")
         write("family.prm", "include steel.prm\n")
         text = """include family.prm
 include ./steel.prm

@@ -354,7 +354,7 @@ class Scenes(unittest.TestCase):
             self.assertIn("mass is not added", done.stdout)
 
     def test_a_zone_finds_itself_on_1_2_and_3_ranks_and_resumed(self):
-        scene = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
+        scene = os.path.join(SOURCE, "prm/perforation/self-finding-nose.prm")
         coarse = ("--quiet", "--set", "End time=12 us",
                   "--set", "Outputs/fields/Interval=6 us",
                   "--set", "Bodies/plate/Cell size=2.1 mm",
