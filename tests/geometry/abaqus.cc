@@ -131,8 +131,9 @@ TEST(Abaqus, an_instance_without_end_has_no_members_elsewhere)
   const std::string text =
       "*Part, name=P\n" + deck + "*Nset, nset=low, generate\n1, 9, 1\n" +
       "*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n"
-      "*End part=P\n*Instance, name=P-2, part=P\n9., 0., 0.\n"
-      "*End Instance\n*Nset, nset=far, instance=P-2\nlow\n*End Assembly\n";
+      "0., 0., 1.\n*End Instance\n*Instance, name=P-2, part=P\n"
+      "9., 0., 0.\n*End part=P\n*Nset, nset=far, instance=P-2\nlow\n"
+      "*End Assembly\n";
   const std::string message = refusal("open.inp", text);
   EXPECT_TRUE(has(message, "a member that is not there")) << message;
 }

@@ -101,6 +101,8 @@ TEST_P(Library, yield_grows_with_strain_and_rate)
     cold = {"Materials/" + first.name + "/" + first.model +
             "/Taylor-Quinney fraction=0"};
   const Loaded loaded = load(file, cold);
+  if (!loaded.material->initial_yield_stress())
+    GTEST_SKIP() << "elastic: never yields";
   double slow = 0.;
   for (const double rate : {1e-3, 1e3, 1e5})
   {
