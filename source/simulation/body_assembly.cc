@@ -76,7 +76,11 @@ void BodyAssembly::find_carvings(const std::vector<std::string> &names)
     const std::string from = discretization_of(name)->carved_from(prm),
                       path = "Bodies/" + name + "/Carve from";
     if (from.empty())
+    {
+      // A zone that finds itself says what it lacks.
+      discretization_of(name)->conversion(prm, "Bodies/" + name);
       continue;
+    }
     if (from == name)
       throw InputError(path, "a body cannot be carved from itself; name the "
                              "FEM body of which \"" +

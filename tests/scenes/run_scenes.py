@@ -398,7 +398,6 @@ class Scenes(unittest.TestCase):
                 ("core/Clamped faces=-z", "remove the entry"),
                 ("core/Approximation=convex exponential", "least squares"),
                 ("core/Conversion interval=0", "Conversion interval"),
-                ("plate/Heat conduction=true", "turn into particles"),
                 ("plate/Smallest step=10 ns", "turn into")):
             done = sabot("check", scene, "--set", "Bodies/" + entry)
             self.assertEqual(done.returncode, 1, entry + done.stdout)
