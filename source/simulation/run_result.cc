@@ -76,7 +76,7 @@ void add_found_zones(const Scene &scene, ordered_json &r, MPI_Comm communicator)
       size[d] = found.high[d] - found.low[d];
       center[d] = 0.5 * (found.low[d] + found.high[d]);
     }
-    r["found zones"][found.zone] = {{"host", found.host},
+    r["found_zones"][found.zone] = {{"host", found.host},
                                     {"particles", found.n_particles},
                                     {"size", size},
                                     {"center", center}};

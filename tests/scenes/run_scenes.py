@@ -113,6 +113,21 @@ def write_pipe(path, inner, outer, n_around, n_along):
 
 
 class Scenes(unittest.TestCase):
+    def resumes_as(self, history, name, steps, *arguments):
+        """Whether a run with a checkpoint after @p steps, on two ranks, goes on
+        to the same bytes. @return its folder."""
+        parted = folder(name)
+        done = sabot("run", *arguments, "-o", parted, "--quiet", "--set",
+                     "Checkpoint interval in steps=%d" % steps,
+                     "--set", "Checkpoint at the end=false", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        os.remove(os.path.join(parted, "history.h5"))
+        done = sabot("resume", parted, "--quiet", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        with open(os.path.join(parted, "history.h5"), "rb") as file:
+            self.assertEqual(history, file.read())
+        return parted
+
     def test_perforation_is_the_same_on_1_2_and_3_ranks(self):
         histories = []
         for ranks in (1, 2, 3):
@@ -274,7 +289,7 @@ class Scenes(unittest.TestCase):
     def test_mass_scaling_on_1_2_and_3_ranks_and_resumed(self):
         # Cells and particles that are tied, in contact, and fail, held at steps
         # above what they have at the start or come to.
-        held = ("--quiet", "--set", "End time=5 us",
+        held = ("--set", "End time=5 us",
                 "--set", "Outputs/fields/Interval=5 us",
                 "--set", "Bodies/plate/Smallest step=0.1 us",
                 "--set", "Bodies/core/Smallest step=0.12 us",
@@ -284,7 +299,8 @@ class Scenes(unittest.TestCase):
         histories = []
         for ranks in (1, 2, 3):
             out = folder("held%d" % ranks)
-            done = sabot("run", QUICK, "-o", out, *held, ranks=ranks)
+            done = sabot("run", QUICK, "-o", out, "--quiet", *held,
+                         ranks=ranks)
             self.assertEqual(done.returncode, 0, done.stdout)
             with open(os.path.join(out, "history.h5"), "rb") as file:
                 histories.append(file.read())
@@ -296,16 +312,8 @@ class Scenes(unittest.TestCase):
             self.assertLess(r["momentum_residual_max"], 1e-9)
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
-        parted = folder("held-parted")
-        done = sabot("run", QUICK, "-o", parted, *held, "--set",
-                     "Checkpoint interval in steps=%d" % (0.6 * r["steps"]),
-                     "--set", "Checkpoint at the end=false", ranks=2)
-        self.assertEqual(done.returncode, 0, done.stdout)
-        os.remove(os.path.join(parted, "history.h5"))
-        done = sabot("resume", parted, "--quiet", ranks=2)
-        self.assertEqual(done.returncode, 0, done.stdout)
-        with open(os.path.join(parted, "history.h5"), "rb") as file:
-            self.assertEqual(histories[0], file.read())
+        parted = self.resumes_as(histories[0], "held-parted",
+                                 0.6 * r["steps"], QUICK, *held)
         with open(os.path.join(parted, "log.txt")) as file:
             self.assertIn("mass scaling added", file.read())
 
@@ -355,21 +363,22 @@ class Scenes(unittest.TestCase):
 
     def test_a_zone_finds_itself_on_1_2_and_3_ranks_and_resumed(self):
         scene = os.path.join(SOURCE, "prm/perforation/self-finding-nose.prm")
-        coarse = ("--quiet", "--set", "End time=12 us",
+        coarse = ("--set", "End time=12 us",
                   "--set", "Outputs/fields/Interval=6 us",
                   "--set", "Bodies/plate/Cell size=2.1 mm",
                   "--set", "Bodies/projectile/Cell size=2.1 mm")
         histories = []
         for ranks in (1, 2, 3):
             out = folder("found%d" % ranks)
-            done = sabot("run", scene, "-o", out, *coarse, ranks=ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", *coarse,
+                         ranks=ranks)
             self.assertEqual(done.returncode, 0, done.stdout)
             with open(os.path.join(out, "history.h5"), "rb") as file:
                 histories.append(file.read())
             r = result(out)
             self.assertLess(r["energy_residual_max"], 0.005)
             self.assertLess(r["momentum_residual_max"], 1e-9)
-            found = r["found zones"]
+            found = r["found_zones"]
             for name in ("core", "nose"):
                 self.assertGreater(found[name]["particles"], 20)
             # Below the projectile, through the plate.
@@ -378,16 +387,8 @@ class Scenes(unittest.TestCase):
             self.assertLess(found["core"]["size"][0], 25e-3)
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
-        parted = folder("found-parted")
-        done = sabot("run", scene, "-o", parted, *coarse, "--set",
-                     "Checkpoint interval in steps=%d" % (0.6 * r["steps"]),
-                     "--set", "Checkpoint at the end=false", ranks=2)
-        self.assertEqual(done.returncode, 0, done.stdout)
-        os.remove(os.path.join(parted, "history.h5"))
-        done = sabot("resume", parted, "--quiet", ranks=2)
-        self.assertEqual(done.returncode, 0, done.stdout)
-        with open(os.path.join(parted, "history.h5"), "rb") as file:
-            self.assertEqual(histories[0], file.read())
+        self.resumes_as(histories[0], "found-parted", 0.6 * r["steps"], scene,
+                        *coarse)
 
     def test_what_a_zone_that_finds_itself_cannot_have(self):
         scene = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
@@ -453,17 +454,8 @@ class Scenes(unittest.TestCase):
                 self.assertGreater(r["bodies"]["core"]["bonds_broken_fraction"], 0.01)
                 self.assertGreater(r["energy"]["rubble friction"], 0.)
                 self.assertLess(r["energy_residual_max"], 0.01)
-                every = int(0.8 * r["steps"])
-                parted = folder(name + "-parts")
-                done = sabot("run", scene, "-o", parted, "--quiet", *options, "--set",
-                             "Checkpoint interval in steps=%d" % every, "--set",
-                             "Checkpoint at the end=false", ranks=2)
-                self.assertEqual(done.returncode, 0, done.stdout)
-                os.remove(os.path.join(parted, "history.h5"))
-                done = sabot("resume", parted, "--quiet", ranks=2)
-                self.assertEqual(done.returncode, 0, done.stdout)
-                with open(os.path.join(parted, "history.h5"), "rb") as file:
-                    self.assertEqual(histories[0], file.read())
+                self.resumes_as(histories[0], name + "-parts",
+                                0.8 * r["steps"], scene, *options)
 
     def test_a_rigid_projectile_on_1_and_2_ranks(self):
         scene = os.path.join(SOURCE, "tests/scenes/rigid-projectile.prm")

@@ -38,9 +38,9 @@ struct RunSummary
  * In SI, keys with underscores. Sections: run, residuals, "bodies",
  * "quantities" (null after a failure), "energy" [J], "timers" (wall and
  * processor seconds of this rank, calls, ns per item), "contact", "couplings",
- * "zone", "knobs". Numbers that are not finite become null, as JSON has none.
- * Processor seconds and peak memory are sums
- * over ranks. The momentum residual is that of EnergyBalance, or that of
+ * "zone", "found_zones" where there are any, "knobs". Numbers that are not
+ * finite become null, as JSON has none. Processor seconds and peak memory are
+ * sums over ranks. The momentum residual is that of EnergyBalance, or that of
  * ForceBook where something holds a body from outside. Of fragments the twenty
  * heaviest stand in it.
  */

@@ -112,7 +112,7 @@ NodalMatter FemConversion::give(const std::vector<std::size_t> &leaving)
   for (std::size_t k = 0; k < involved.size(); ++k)
     matter.entries[k].node = involved[k];
 
-  const bool holds_modes = cells.hourglass_control() == "stiffness";
+  const bool holds_modes = cells.holds_hourglass_energy();
   std::vector<double> states(matter.n_rows);
   for (const std::size_t e : leaving) // in the order of cells, on every rank
   {

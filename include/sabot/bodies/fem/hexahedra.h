@@ -72,6 +72,9 @@ public:
   /** Name of the form that holds motions without strain; empty for rules that
       have none. */
   virtual std::string hourglass_control() const { return ""; }
+  /** Whether that form gives back what motions without strain cost, as a
+      stiffness does; else hourglass_energy is heat. */
+  virtual bool holds_hourglass_energy() const { return false; }
   /** Everything of the cells that a restart needs; the rules add their own.
       Connectivity and reference data are not part of it: they are set up
       from the mesh before, and eroded cells are taken out before arrays are

@@ -59,6 +59,10 @@ public:
   {
     return chosen_hourglass_control(options, *material);
   }
+  bool holds_hourglass_energy() const override
+  {
+    return keeps_reference_modes();
+  }
   void visit_state(StateVisitor &visitor) override;
 
 protected:
