@@ -119,7 +119,7 @@ void VelocityConstraints::accumulate_work(const NodalState &nodes,
   for (const Held &h : held)
     // A tied follower is moved by its leaders, whatever is prescribed.
     if (norm_square(h.value) > 0. && !nodes.is_follower(h.node))
-      done.add(-half_dt * dot(nodes.force[h.node], factor * h.value));
+      done.add(-half_dt * dot(nodes.kick_force(h.node), factor * h.value));
 }
 
 void VelocityConstraints::add_kick_energy(const NodalState &nodes,
@@ -131,7 +131,8 @@ void VelocityConstraints::add_kick_energy(const NodalState &nodes,
     const bool is_held = next != held.end() && next->node == i;
     if (!nodes.is_follower(i))
     {
-      const Vec f = is_held ? next->free * nodes.force[i] : nodes.force[i];
+      const Vec force = nodes.kick_force(i),
+                f = is_held ? next->free * force : force;
       sum.add(dt * dt / (8. * nodes.inertia[i]) * norm_square(f));
     }
     next += is_held;

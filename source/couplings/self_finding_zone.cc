@@ -5,6 +5,11 @@
 
 namespace sabot
 {
+std::vector<int> SelfFindingZone::joins() const
+{
+  return {options.zone, options.host};
+}
+
 SelfFindingZone::SelfFindingZone(const std::string &name,
                                  const std::vector<Body *> &bodies,
                                  const SelfFindingOptions &options,

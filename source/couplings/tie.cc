@@ -30,6 +30,11 @@ Tie::Tie(const std::string &name, const std::vector<Body *> &bodies,
 {
 }
 
+std::vector<int> Tie::joins() const
+{
+  return {follower, leader};
+}
+
 void Tie::initialize()
 {
   std::vector<Constraint> constraints = find_constraints();

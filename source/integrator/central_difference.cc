@@ -19,8 +19,9 @@ CentralDifference::CentralDifference(
 {
 }
 
-void CentralDifference::initialize()
+void CentralDifference::initialize(const unsigned int most_substeps)
 {
+  substeps.find(bodies, loads, couplings, most_substeps);
   impose_velocities(time);
   compute_forces(no_step);
   hold_steps(0, false);
@@ -30,12 +31,27 @@ void CentralDifference::kick(const double dt)
 {
   const auto timer = timers.scope("integrate");
   for (auto &body : bodies)
-  {
-    NodalState &nodes = body->nodes();
-    for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      if (!nodes.is_follower(i))
-        nodes.velocity[i] += (dt / nodes.inertia[i]) * nodes.force[i];
-  }
+    if (body->nodes().kick_change.empty())
+      kick(body->nodes(), dt);
+    else
+    {
+      NodalState &nodes = body->nodes();
+      for (std::size_t i = 0; i < nodes.n_owned; ++i)
+        nodes.velocity[i] += (dt / nodes.inertia[i]) * nodes.kick_force(i);
+    }
+}
+
+void CentralDifference::kick(NodalState &nodes, const double dt)
+{
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    if (!nodes.is_follower(i))
+      nodes.velocity[i] += (dt / nodes.inertia[i]) * nodes.force[i];
+}
+
+void CentralDifference::drift(NodalState &nodes, const double dt)
+{
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    nodes.position[i] += dt * nodes.velocity[i];
 }
 
 void CentralDifference::impose_velocities(const double end)
@@ -59,8 +75,10 @@ void CentralDifference::accumulate_work(const double half_dt)
     coupling->accumulate_work(half_dt);
 }
 
-void CentralDifference::advance(const double dt)
+void CentralDifference::advance(const double dt,
+                                const std::vector<unsigned int> &counts)
 {
+  substeps.begin(counts);
   kick(0.5 * dt); // v(n+1/2)
   impose_velocities(time + dt);
   {
@@ -69,11 +87,10 @@ void CentralDifference::advance(const double dt)
   }
   {
     const auto timer = timers.scope("integrate");
-    for (auto &body : bodies) // x(n+1)
+    for (auto &body : bodies) // x(n+1), or that of the first substep
     {
-      NodalState &nodes = body->nodes();
-      for (std::size_t i = 0; i < nodes.n_owned; ++i)
-        nodes.position[i] += dt * nodes.velocity[i];
+      const Substeps::Member *const member = substeps.of(*body);
+      drift(body->nodes(), member == nullptr ? dt : dt / member->n);
     }
   }
   time += dt;
@@ -92,19 +109,11 @@ void CentralDifference::compute_forces(const double dt)
   std::string problem;
   for (auto &body : bodies)
   {
-    {
-      const auto timer = timers.scope("ghost exchange");
-      body->update_ghosts();
-    }
-    const auto timer = timers.scope(body->step_timer_name());
-    try
-    {
-      body->compute_forces(time, dt);
-    }
-    catch (const PhysicsError &e)
-    {
-      problem = e.what();
-    }
+    Substeps::Member *const member = substeps.of(*body);
+    if (member != nullptr)
+      make_substeps(*member, dt, problem);
+    else
+      compute_own_forces(*body, time, dt, problem);
   }
   agree_on_problems(problem);
   for (auto &load : loads)
@@ -118,16 +127,63 @@ void CentralDifference::compute_forces(const double dt)
     const auto timer = timers.scope(coupling->kind());
     coupling->add_forces(dt);
   }
+  substeps.complete();
+}
+
+void CentralDifference::compute_own_forces(Body &body, const double at,
+                                           const double dt,
+                                           std::string &problem)
+{
+  {
+    const auto timer = timers.scope("ghost exchange");
+    body.update_ghosts();
+  }
+  const auto timer = timers.scope(body.step_timer_name());
+  try
+  {
+    body.compute_forces(at, dt);
+  }
+  catch (const PhysicsError &e)
+  {
+    // The first; other ranks go on until all agree.
+    if (problem.empty())
+      problem = e.what();
+  }
+}
+
+void CentralDifference::make_substeps(Substeps::Member &member, const double dt,
+                                      std::string &problem)
+{
+  Body &body = *member.body;
+  NodalState &nodes = body.nodes();
+  const unsigned int n = is_step(dt) ? member.n : 1;
+  const double own_dt = dt / n, start = time - dt;
+  nodes.kick_change.clear(); // in between all of its own force acts
+  for (unsigned int s = 1; s < n; ++s)
+  {
+    const double at = start + s * own_dt;
+    compute_own_forces(body, at, own_dt, problem);
+    body.accumulate_work(0.5 * own_dt);
+    const auto timer = timers.scope("integrate");
+    kick(nodes, own_dt);
+    body.impose_velocities(at);
+    body.accumulate_work(0.5 * own_dt);
+    drift(nodes, own_dt);
+  }
+  compute_own_forces(body, time, own_dt, problem);
+  Substeps::keep_own(member);
 }
 
 void CentralDifference::update_topology(const unsigned int step)
 {
   const auto timer = timers.scope("kernel update");
   bool changed = false;
+  substeps.before_update();
   for (auto &body : bodies)
     changed |= body->update_topology(step, time);
   for (auto &coupling : couplings)
     changed |= coupling->change_bodies(step);
+  substeps.after_update();
   hold_steps(step, changed);
 }
 
@@ -160,39 +216,52 @@ void CentralDifference::agree_on_problems(const std::string &problem) const
 
 StepProposal CentralDifference::propose(const bool interrupted) const
 {
-  struct Proposal
-  {
-    double dt;
-    GlobalIndex item;
-    int source;
-  } best{std::numeric_limits<double>::max(), -1, 0};
-  int source = 0;
-  const auto consider = [&](const StableStep &step)
-  {
-    if (step.dt < best.dt)
-      best = {step.dt, step.item, source};
-    ++source;
-  };
-  for (const auto &body : bodies)
-    consider(body->stable_step());
+  constexpr double none = std::numeric_limits<double>::max();
+  const std::size_t n = bodies.size();
+  // Bodies, the least of couplings, and whether to stop.
+  std::vector<double> least(n + 2, none);
+  for (std::size_t b = 0; b < n; ++b) // not a number proposes nothing
+    least[b] = std::min(least[b], bodies[b]->stable_step().dt);
   for (const auto &coupling : couplings)
-    consider(coupling->stable_step());
+    least[n] = std::min(least[n], coupling->stable_step().dt);
+  least[n + 1] = interrupted ? -1. : 0.;
+  MPI_Allreduce(MPI_IN_PLACE, least.data(), least.size(), MPI_DOUBLE, MPI_MIN,
+                communicator);
+  StepProposal proposal{none, "", least[n + 1] < 0., {}};
+  std::size_t decides = n;
+  substeps.bound(bodies, least, proposal.dt, decides);
+  if (least[n] < proposal.dt)
+  {
+    proposal.dt = least[n];
+    decides = n;
+  }
+  proposal.body_steps.assign(least.begin(), least.begin() + n);
+  proposal.limiter = name_limiter(least[decides], decides);
+  return proposal;
+}
 
-  double values[2] = {best.dt, interrupted ? -1. : 0.};
-  MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_DOUBLE, MPI_MIN, communicator);
-  // Of equal proposals the lowest body and item is named, whatever the ranks.
+std::string CentralDifference::name_limiter(const double dt,
+                                            const std::size_t decides) const
+{
+  // Of equal proposals the lowest item is named, whatever the ranks.
   constexpr GlobalIndex factor = GlobalIndex(1) << 48;
-  GlobalIndex who = best.dt == values[0]
-                        ? best.source * factor + best.item
-                        : std::numeric_limits<GlobalIndex>::max();
+  GlobalIndex who = std::numeric_limits<GlobalIndex>::max();
+  const auto consider = [&](const std::size_t source, const StableStep &step)
+  {
+    if (step.dt == dt)
+      who = std::min(who, GlobalIndex(source) * factor + step.item);
+  };
+  if (decides < bodies.size())
+    consider(decides, bodies[decides]->stable_step());
+  else
+    for (std::size_t c = 0; c < couplings.size(); ++c)
+      consider(bodies.size() + c, couplings[c]->stable_step());
   MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT64_T, MPI_MIN, communicator);
   const std::size_t index = who / factor;
-  StepProposal proposal{values[0], "", values[1] < 0.};
   if (index < bodies.size())
-    proposal.limiter =
-        bodies[index]->name + " #" + std::to_string(who % factor);
-  else if (index - bodies.size() < couplings.size())
-    proposal.limiter = couplings[index - bodies.size()]->name;
-  return proposal;
+    return bodies[index]->name + " #" + std::to_string(who % factor);
+  return index - bodies.size() < couplings.size()
+             ? couplings[index - bodies.size()]->name
+             : "";
 }
 } // namespace sabot

@@ -2,6 +2,7 @@
 #include "sabot/integrator/stepper.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sabot
 {
@@ -14,10 +15,30 @@ double Stepper::choose(const StepProposal &proposal) const
   return left <= next * (1. + 1e-9) ? left : next;
 }
 
-void Stepper::advance(const double step)
+std::vector<unsigned int> Stepper::substeps(const StepProposal &proposal,
+                                            const double step) const
+{
+  std::vector<unsigned int> counts(proposal.body_steps.size(), 1);
+  for (std::size_t b = 0; b < counts.size(); ++b)
+    if (integrator.substeps.may(b))
+      counts[b] = std::max(
+          1.,
+          std::ceil(step / (limits.factor * proposal.body_steps[b]) - 1e-9));
+  return counts;
+}
+
+double Stepper::mean_substeps(const Body &body) const
+{
+  const Substeps::Member *const member = integrator.substeps.of(body);
+  return member == nullptr || n_steps == 0 ? 1.
+                                           : double(member->made) / n_steps;
+}
+
+void Stepper::advance(const double step,
+                      const std::vector<unsigned int> &counts)
 {
   dt = step;
-  integrator.advance(step);
+  integrator.advance(step, counts);
   ++n_steps;
 }
 
@@ -26,5 +47,6 @@ void Stepper::visit_state(StateVisitor &visitor)
   visitor.visit_value("time", integrator.time);
   visitor.visit_value("step", n_steps);
   visitor.visit_value("step size", dt);
+  integrator.substeps.visit_state(visitor);
 }
 } // namespace sabot

@@ -23,6 +23,7 @@ class PrescribedMotion : public Load
 public:
   explicit PrescribedMotion(const LoadRequest &request);
   std::string type() const override { return "prescribed motion"; }
+  std::vector<int> drives() const override { return {body.id}; }
   void initialize() override;
   void impose_velocities(const double begin, const double end) override;
   void accumulate_work(const double half_dt) override

@@ -114,7 +114,7 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     steps.push_back(stepper.choose(proposal));
     try
     {
-      stepper.advance(steps.back());
+      stepper.advance(steps.back(), stepper.substeps(proposal, steps.back()));
       stepper.update();
     }
     catch (const PhysicsError &e)

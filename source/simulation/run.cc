@@ -48,6 +48,7 @@ StepLimits step_limits(const RunSettings &settings)
   limits.factor = settings.step_factor;
   limits.largest = settings.largest_step;
   limits.end_time = settings.end_time;
+  limits.most_substeps = settings.most_substeps;
   return limits;
 }
 
@@ -182,7 +183,7 @@ void Run::make_step(const StepProposal &proposal)
   if (dt < scene.settings.end_time - stepper.time())
     smallest_step = std::min(smallest_step, stable);
   within_step = true;
-  stepper.advance(dt);
+  stepper.advance(dt, stepper.substeps(proposal, dt));
   stepper.update();
   within_step = false;
 }

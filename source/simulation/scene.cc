@@ -75,6 +75,7 @@ void Scene::read_settings()
                        "grows until the balance stops the run, which may take "
                        "longer than the run does; compare with 0.9");
   settings.largest_step = get_quantity(prm, "Largest step");
+  settings.most_substeps = prm.get_integer("Largest number of substeps");
   settings.energy_limit = get_quantity(prm, "Energy residual limit");
   settings.checkpoint_interval = get_quantity(prm, "Checkpoint interval");
   settings.checkpoint_steps = prm.get_integer("Checkpoint interval in steps");

@@ -20,7 +20,7 @@ inline double energy_of_added_mass(const NodalState &nodes, const std::size_t i,
   const double m = nodes.inertia[i];
   return 0.5 * more * norm_square(nodes.velocity[i]) +
          dt * dt / 8. * (1. / m - 1. / (m + more)) *
-             norm_square(free * nodes.force[i]);
+             norm_square(free * nodes.kick_force(i));
 }
 } // namespace sabot
 

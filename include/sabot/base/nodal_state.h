@@ -31,6 +31,10 @@ struct NodalState
   /** External - internal - stabilization, then with what couplings add: [N],
       of owned nodes. Ghosts' entries are not used. */
   AlignedVector<Vec> force; // [n_owned + n_ghost]
+  /** What kicks have of the force beside it [N]: of a body that makes several
+      steps within one of the scene, its own force acts along the shorter step,
+      so that (1/n - 1) of it stands here. [n_owned], empty for all others. */
+  AlignedVector<Vec> kick_change;
   /** Row sum of the mass matrix, or a particle's mass [kg]; constant but for
       erosion. Adds up to the body's mass. */
   std::vector<double> lumped_mass; // [n_owned + n_ghost]
@@ -50,6 +54,13 @@ struct NodalState
   double moving_mass(const std::size_t i) const
   {
     return is_follower(i) ? lumped_mass[i] : inertia[i];
+  }
+
+  /** By which half a step of the scene kicks owned node @p i at its ends
+      [N]. */
+  Vec kick_force(const std::size_t i) const
+  {
+    return kick_change.empty() ? force[i] : force[i] + kick_change[i];
   }
 
   /** n_owned + n_ghost. */

@@ -36,6 +36,9 @@ public:
   virtual std::vector<std::pair<int, int>> holds_apart() const { return {}; }
   /** SpringOptions::stability_fraction of the springs that do; 0: none do. */
   virtual double stability_fraction() const { return 0.; }
+  /** Bodies, by number, nodes of which it moves together with others', so that
+      all of them take the same steps. */
+  virtual std::vector<int> joins() const { return {}; }
   /** Once, after the bodies were distributed, ties before others: they change
       the inertia of leaders and followers. Throws InputError, on all ranks,
       where the bodies do not fit. Collective. */

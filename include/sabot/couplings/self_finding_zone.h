@@ -46,6 +46,7 @@ public:
                   const std::shared_ptr<TiedNodes> &others);
 
   std::string kind() const override { return "conversion"; }
+  std::vector<int> joins() const override;
   /** Turns the cells of the start. Collective. */
   void initialize() override;
   bool change_bodies(const unsigned int step) override;

@@ -54,6 +54,7 @@ public:
       MPI_Comm communicator, const std::shared_ptr<TiedNodes> &others = {});
 
   std::string kind() const override { return "tie"; }
+  std::vector<int> joins() const override;
   /** Finds followers and weights. A node that another tie holds already is
       left to it; InputError where no node is tied, where one follows here and
       leads there, and where the velocity of a follower is prescribed and that

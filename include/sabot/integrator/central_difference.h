@@ -4,6 +4,7 @@
 #include "sabot/base/timers.h"
 #include "sabot/bodies/body.h"
 #include "sabot/couplings/coupling.h"
+#include "sabot/integrator/substeps.h"
 #include "sabot/loads/load.h"
 
 #include <mpi.h>
@@ -25,6 +26,8 @@ struct StepProposal
   double dt;           // [s], before the step factor
   std::string limiter; // body or coupling and item
   bool interrupted;    // some rank was asked to stop
+  /** Stable step of each body by itself [s]. */
+  std::vector<double> body_steps;
 };
 
 /**
@@ -52,8 +55,9 @@ public:
   /**
    * Initial velocities and forces. Collective.
    * Imposes velocities at the present time and computes forces with dt = 0.
+   * @p most_substeps: that a body may make within one of the scene's.
    */
-  void initialize();
+  void initialize(const unsigned int most_substeps);
   /**
    * Advance by @p dt. Collective. Throws PhysicsError on all ranks when a body
    * went wrong on any.
@@ -64,8 +68,9 @@ public:
    *   W = dt/2 v(n+1/2) . (f(n) + f(n+1))
    * differs from the change of kinetic energy by dt^2/(8 m) (|f(n+1)|^2 -
    * |f(n)|^2), which is of second order and does not add up. @p dt > 0 [s].
+   * @p counts: steps that each body makes meanwhile, see Substeps; empty: one.
    */
-  void advance(const double dt);
+  void advance(const double dt, const std::vector<unsigned int> &counts);
   /**
    * Kernel updates and the like, after @p step steps. Collective.
    * Where a body says that something changed couplings pass on what is there
@@ -80,6 +85,7 @@ public:
 
   /** Of the state [s], that of positions; grows by dt in advance(). */
   double time = 0.;
+  Substeps substeps;
 
 private:
   double last_step = 0.; // [s]
@@ -88,6 +94,9 @@ private:
   void hold_steps(const unsigned int step, bool changed);
   /** v += dt force/inertia of owned nodes. */
   void kick(const double dt);
+  static void kick(NodalState &nodes, const double dt);
+  /** x += dt v of owned nodes. */
+  static void drift(NodalState &nodes, const double dt);
   /** Bodies at the present time, loads for the stretch of time from there to
       @p end, then couplings. */
   void impose_velocities(const double end);
@@ -98,6 +107,17 @@ private:
    * couplings, each with its search before.
    */
   void compute_forces(const double dt);
+  /** Ghosts, then the body's own forces at time @p at [s]. Collective. Keeps
+      the first @p problem. */
+  void compute_own_forces(Body &body, const double at, const double dt,
+                          std::string &problem);
+  /** From the position after the first drift on to the end of a step of @p dt.
+      Collective. */
+  void make_substeps(Substeps::Member &member, const double dt,
+                     std::string &problem);
+  /** Body and item, or coupling, whose stable step is @p dt; @p decides: the
+      body, or the number of bodies for a coupling. Collective. */
+  std::string name_limiter(const double dt, const std::size_t decides) const;
   /**
    * Throws PhysicsError with the message of the lowest rank that has one; an
    * empty @p problem is none. Collective.

@@ -20,6 +20,8 @@ struct StepLimits
   /** Step over the last one at most: contact penalties follow the step, so it
       may grow slowly only. */
   double growth = 1.05;
+  /** That a body may make within one step of the scene. */
+  unsigned int most_substeps = 1;
 };
 
 /**
@@ -45,7 +47,7 @@ public:
   }
 
   /** Initial velocities and forces. */
-  void initialize() { integrator.initialize(); }
+  void initialize() { integrator.initialize(limits.most_substeps); }
   /**
    * The least stable step and who limits it. @p interrupted: whether this rank
    * was asked to stop.
@@ -69,7 +71,13 @@ public:
    * Any positive step may be given; it is the one that growth is measured by
    * next.
    */
-  void advance(const double dt);
+  void advance(const double dt, const std::vector<unsigned int> &counts = {});
+  /** Steps that each body makes within one of @p dt [s], none of them longer
+      than the factor times the stable one. */
+  std::vector<unsigned int> substeps(const StepProposal &proposal,
+                                     const double dt) const;
+  /** Steps of @p body so far over those of the scene. */
+  double mean_substeps(const Body &body) const;
   /**
    * Kernel updates, failure, erosion: what is due between steps.
    * With the number of steps made, on which intervals of kernel updates and

@@ -66,6 +66,8 @@ public:
       that it is known which nodes ties move. Throws
       InputError, on all ranks, where a body cannot bear it. Collective. */
   virtual void initialize() = 0;
+  /** Bodies, by number, of which it prescribes velocities. */
+  virtual std::vector<int> drives() const { return {}; }
   /** Velocities of owned nodes that it prescribes. @p begin and @p end [s]: the
       stretch of time along which nodes move with them; equal ones: the velocity
       at that time. Local. */
