@@ -16,12 +16,23 @@ namespace sabot
 /** Bodies, loads and couplings under the integrator, without a scene file. */
 struct World
 {
+  /** @p most_substeps: that a body may make within one step. */
+  explicit World(const unsigned int most_substeps = 1)
+      : limits(limits_of(most_substeps))
+  {
+  }
+  static StepLimits limits_of(const unsigned int most_substeps)
+  {
+    StepLimits limits;
+    limits.most_substeps = most_substeps;
+    return limits;
+  }
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<std::unique_ptr<Load>> loads;
   std::vector<std::unique_ptr<Coupling>> couplings;
   Timers timers;
-  Stepper stepper{bodies,       loads,  couplings,
-                  StepLimits(), timers, MPI_COMM_WORLD};
+  const StepLimits limits;
+  Stepper stepper{bodies, loads, couplings, limits, timers, MPI_COMM_WORLD};
 
   void distribute()
   {
@@ -79,7 +90,9 @@ struct World
   /** One step of @p factor times the stable one. @return its size [s]. */
   double advance(const double factor)
   {
-    stepper.advance(factor * stepper.propose(false).dt);
+    const StepProposal proposal = stepper.propose(false);
+    const double dt = factor * proposal.dt;
+    stepper.advance(dt, stepper.substeps(proposal, dt));
     stepper.update();
     return stepper.last_step();
   }

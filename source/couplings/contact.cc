@@ -126,10 +126,15 @@ void Contact::press(const std::size_t number, const double dt)
   double geometric_depth;
   touch(group, f, projection, point.normal, geometric_depth);
   point.last_touched = touched.size();
-  point.velocity =
-      halo.velocity[group.slot] - velocity_of_touched(point.first_touched);
+  const auto against = [&](const AlignedVector<Vec> &velocity)
+  {
+    return velocity[group.slot] -
+           velocity_of_touched(velocity, point.first_touched);
+  };
+  point.velocity = against(halo.velocity);
+  point.first_velocity = against(halo.start_velocity());
   point.depth = group.memory.effective_depth(geometric_depth,
-                                             2. * norm(point.velocity) * dt);
+                                             2. * point.largest_speed() * dt);
   if (point.depth <= 0.)
   {
     touched.resize(point.first_touched);
@@ -180,13 +185,14 @@ double Contact::reduced_mass(const Group &group, const std::size_t first) const
          (group.share / halo.inertia[group.slot] + sum);
 }
 
-Vec Contact::velocity_of_touched(const std::size_t first) const
+Vec Contact::velocity_of_touched(const AlignedVector<Vec> &velocity,
+                                 const std::size_t first) const
 {
   Vec v = {};
   for (std::size_t i = first; i < touched.size(); ++i)
   {
     const TouchedNode &t = touched[i];
-    v += t.weight * flipped(halo.velocity[t.slot], t.mirrored);
+    v += t.weight * flipped(velocity[t.slot], t.mirrored);
   }
   return v;
 }

@@ -24,7 +24,9 @@ void SpringOptions::parse_parameters(const Parameters &prm)
 double backed_part(ContactMemory &memory, const AskingSpring &spring,
                    const double dt)
 {
-  memory.stored -= 0.5 * dot(memory.spring, spring.velocity) * dt;
+  const Vec first = spring.first_velocity != nullptr ? *spring.first_velocity
+                                                     : spring.velocity;
+  memory.stored -= 0.5 * dot(memory.spring, first) * dt;
   const double square = norm_square(spring.force),
                work = dot(spring.force, spring.velocity) * dt,
                kick = 0.5 * square * dt * dt / spring.reduced_mass,

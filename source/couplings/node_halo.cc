@@ -106,6 +106,23 @@ void NodeHalo::update()
   exchange.update(position.data());
   exchange.update(velocity.data());
   exchange.update(inertia.data());
+  update_first_velocity();
+}
+
+void NodeHalo::update_first_velocity()
+{
+  if (std::all_of(all_bodies.begin(), all_bodies.end(),
+                  [](const Body *body)
+                  { return body->nodes().n_substeps == 1; }))
+    return first_velocity.clear();
+  first_velocity = velocity;
+  for (std::size_t s = 0; s < n_owned(); ++s)
+  {
+    const NodalState &nodes = all_bodies[owned_body[s]]->nodes();
+    if (!nodes.first_velocity.empty())
+      first_velocity[s] = nodes.first_velocity[owned_local[s]];
+  }
+  exchange.update(first_velocity.data());
 }
 
 void NodeHalo::find_flow_stress(std::vector<double> &of_slots) const

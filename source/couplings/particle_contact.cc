@@ -215,7 +215,8 @@ void ParticleContact::find_motion(const Slots &at, ContactPoint &point) const
 {
   // A particle and its images move as one.
   double compliance = 1. / halo.inertia[at.node];
-  Vec v = halo.velocity[at.node];
+  const AlignedVector<Vec> &start = halo.start_velocity();
+  Vec v = halo.velocity[at.node], first = start[at.node];
   for (std::size_t p = 0; p < near.size();)
   {
     const std::size_t j = near[p].slot;
@@ -224,10 +225,12 @@ void ParticleContact::find_motion(const Slots &at, ContactPoint &point) const
     {
       part += near[p].weight * flipped(point.normal, near[p].turned);
       v -= near[p].weight * flipped(halo.velocity[j], near[p].turned);
+      first -= near[p].weight * flipped(start[j], near[p].turned);
     }
     compliance += norm_square(part) / halo.inertia[j];
   }
   point.velocity = v;
+  point.first_velocity = first;
   point.reduced_mass = 1. / compliance;
 }
 
@@ -254,7 +257,7 @@ void ParticleContact::press(const std::size_t number, const double dt)
   point.fade = standing.fade;
   find_motion(at, point);
   point.depth =
-      memory.effective_depth(-standing.gap, 2. * norm(point.velocity) * dt);
+      memory.effective_depth(-standing.gap, 2. * point.largest_speed() * dt);
   if (point.depth <= 0.)
     return;
   point.stiffness = options.stable_stiffness(

@@ -50,11 +50,12 @@ void SharedWork::back(std::vector<ContactPoint> &points, const double dt)
     const double stiffer = pots[p.pair].stiffer, energy = energy_of(p, stiffer);
     ContactMemory &memory = *p.memory;
     const bool is_new = norm_square(memory.spring) == 0.;
-    p.part = p.fade * backed_part(memory,
-                                  {p.fade * p.stiffness * p.depth * p.normal,
-                                   p.velocity, p.stiffness * p.fade,
-                                   p.reduced_mass, (stiffer - 1.) * energy},
-                                  dt);
+    p.part =
+        p.fade * backed_part(memory,
+                             {p.fade * p.stiffness * p.depth * p.normal,
+                              p.velocity, p.stiffness * p.fade, p.reduced_mass,
+                              (stiffer - 1.) * energy, &p.first_velocity},
+                             dt);
     // What a node takes on the way in beyond this it gives on the way out, in
     // the step that leaves the other side.
     if (is_new)
@@ -68,7 +69,10 @@ void SharedWork::back(std::vector<ContactPoint> &points, const double dt)
       sum.held.add(energy);
       sum.surplus.add(memory.stored - own);
       sum.lacking.add(energy - own);
-      sum.damped.add(-0.5 * dot(before + memory.damping, p.velocity) * dt);
+      sum.damped.add(
+          -0.5 *
+          (dot(before, p.first_velocity) + dot(memory.damping, p.velocity)) *
+          dt);
     }
     memory.stored = own;
   }

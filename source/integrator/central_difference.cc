@@ -159,6 +159,10 @@ void CentralDifference::make_substeps(Substeps::Member &member, const double dt,
   const unsigned int n = is_step(dt) ? member.n : 1;
   const double own_dt = dt / n, start = time - dt;
   nodes.kick_change.clear(); // in between all of its own force acts
+  nodes.first_velocity.clear();
+  if (n > 1)
+    nodes.first_velocity.assign(nodes.velocity.begin(),
+                                nodes.velocity.begin() + nodes.n_owned);
   for (unsigned int s = 1; s < n; ++s)
   {
     const double at = start + s * own_dt;

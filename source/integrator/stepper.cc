@@ -20,10 +20,8 @@ std::vector<unsigned int> Stepper::substeps(const StepProposal &proposal,
 {
   std::vector<unsigned int> counts(proposal.body_steps.size(), 1);
   for (std::size_t b = 0; b < counts.size(); ++b)
-    if (integrator.substeps.may(b))
-      counts[b] = std::max(
-          1.,
-          std::ceil(step / (limits.factor * proposal.body_steps[b]) - 1e-9));
+    if (const Substeps::Member *const member = integrator.substeps.of(b))
+      counts[b] = member->next(step / (limits.factor * proposal.body_steps[b]));
   return counts;
 }
 

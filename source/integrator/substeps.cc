@@ -2,6 +2,7 @@
 #include "sabot/integrator/substeps.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sabot
 {
@@ -43,10 +44,19 @@ const Substeps::Member *Substeps::of(const Body &body) const
   return const_cast<Substeps *>(this)->of(body);
 }
 
-bool Substeps::may(const std::size_t b) const
+const Substeps::Member *Substeps::of(const std::size_t b) const
 {
-  return std::any_of(members.begin(), members.end(),
-                     [b](const Member &m) { return m.body->id == int(b); });
+  const auto at =
+      std::find_if(members.begin(), members.end(),
+                   [b](const Member &m) { return m.body->id == int(b); });
+  return at == members.end() ? nullptr : &*at;
+}
+
+unsigned int Substeps::Member::next(const double shares) const
+{
+  constexpr double round_off = 1e-9, margin = 0.25;
+  const unsigned int least = std::max(1., std::ceil(shares - round_off));
+  return least < n && shares > least - margin ? least + 1 : least;
 }
 
 void Substeps::bound(const std::vector<std::unique_ptr<Body>> &bodies,
@@ -57,7 +67,7 @@ void Substeps::bound(const std::vector<std::unique_ptr<Body>> &bodies,
   std::size_t its = bodies.size();
   for (std::size_t b = 0; b < bodies.size(); ++b)
   {
-    const double bound = may(b) ? most * own[b] : own[b];
+    const double bound = of(b) != nullptr ? most * own[b] : own[b];
     if (bound < step)
     {
       step = bound;
@@ -93,6 +103,7 @@ void Substeps::begin(const std::vector<unsigned int> &counts)
   {
     member.n = counts.empty() ? 1 : counts[member.body->id];
     member.made += member.n;
+    member.body->nodes().n_substeps = member.n;
     change_kick(member);
   }
 }
@@ -151,7 +162,10 @@ void Substeps::visit_state(StateVisitor &visitor)
     visitor.visit_value("substeps made by " + member.body->name, member.made);
     visitor.visit_array("own force of " + member.body->name, member.own);
     if (visitor.is_restoring())
+    {
+      member.body->nodes().n_substeps = member.n;
       change_kick(member);
+    }
   }
 }
 } // namespace sabot

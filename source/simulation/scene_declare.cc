@@ -28,7 +28,7 @@ void declare_top(Parameters &prm)
   prm.declare_knob("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
                    "Upper bound of the step.");
   prm.declare_knob(
-      "Largest number of substeps", "1", integer(1, 64),
+      "Largest number of substeps", "8", integer(1, 64),
       "Steps that a body may make within one step of the scene, so that small "
       "or squeezed cells do not rule the steps of all; of bodies that others "
       "meet by contact only, not of tied, converting or driven ones. 1: all "

@@ -35,6 +35,10 @@ struct NodalState
       steps within one of the scene, its own force acts along the shorter step,
       so that (1/n - 1) of it stands here. [n_owned], empty for all others. */
   AlignedVector<Vec> kick_change;
+  /** Steps within the last one of the scene, the same on every rank; where they
+      are several, velocity of owned nodes in the first of them [m/s]. */
+  unsigned int n_substeps = 1;
+  AlignedVector<Vec> first_velocity;
   /** Row sum of the mass matrix, or a particle's mass [kg]; constant but for
       erosion. Adds up to the body's mass. */
   std::vector<double> lumped_mass; // [n_owned + n_ghost]

@@ -143,7 +143,8 @@ private:
       1/m = 1/m_node + sum w^2/m_touched, so that a model cut at planes of
       symmetry has the same springs. And mean velocity of what is touched. */
   double reduced_mass(const Group &group, const std::size_t first) const;
-  Vec velocity_of_touched(const std::size_t first) const;
+  Vec velocity_of_touched(const AlignedVector<Vec> &velocity,
+                          const std::size_t first) const;
   /** Of friction per area [Pa], between a node and what it touches. */
   double shear_limit(const Group &group, const std::size_t first) const;
   /** Forces on the node, and their opposite, in parts, on what it touches: the

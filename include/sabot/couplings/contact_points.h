@@ -19,6 +19,8 @@ struct ContactPoint
   std::size_t item;                // its own number: of the group or pair
   Vec normal;                      // unit, outward of what is touched
   Vec velocity;                    // of the node against what it touches [m/s]
+  Vec first_velocity;              // the same at the start of the step, see
+                                   // NodeHalo::start_velocity()
   double depth;                    // that repels [m], > 0
   double stiffness;                // k [N/m], stable
   double reduced_mass;             // [kg]
@@ -40,6 +42,11 @@ struct ContactPoint
   Vec friction;    // along the surface [N]
   double part;     // that the work of the spring bears, times fade
 
+  /** Of the two velocities [m/s]. */
+  double largest_speed() const
+  {
+    return std::max(norm(velocity), norm(first_velocity));
+  }
   /** On the node [N]. */
   Vec normal_force() const { return part * (pressing * normal); }
   Vec friction_force() const { return part * friction; }

@@ -109,6 +109,8 @@ struct AskingSpring
   double stiffness;    // k [N/m]
   double reduced_mass; // m [kg]
   double lent = 0.;    // that others have taken for it [J]
+  /** At the start of the step [m/s]; null: the same. */
+  const Vec *first_velocity = nullptr;
 };
 
 /**

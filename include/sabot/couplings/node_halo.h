@@ -78,17 +78,27 @@ public:
     return all_bodies[owned_body[slot]]->nodes().velocity[owned_local[slot]];
   }
 
+  /** Of the first substep where any body makes several, else that of the step,
+      [m/s]. */
+  const AlignedVector<Vec> &start_velocity() const
+  {
+    return first_velocity.empty() ? velocity : first_velocity;
+  }
+
   AlignedVector<Vec> position, velocity; // [size()], m and m/s
   std::vector<double> inertia; // [size()], mass with that of followers [kg]
 
 private:
+  /** first_velocity, where it is needed. Collective. */
+  void update_first_velocity();
   /** Where the slots of the owned nodes @p owned are. */
   void take_owned(const std::vector<NodeKey> &owned);
   /** Slots for owned nodes that other ranks ask for. */
   void add_asked(const std::vector<NodeKey> &asked);
 
   std::vector<Body *> all_bodies;
-  std::vector<NodeKey> key_of_slot; // owned ascending, then others ascending
+  AlignedVector<Vec> first_velocity; // [size()] or empty
+  std::vector<NodeKey> key_of_slot;  // owned ascending, then others ascending
   // Of the owned slots.
   std::vector<std::int32_t> owned_body;
   std::vector<std::size_t> owned_local;

@@ -44,6 +44,12 @@ public:
     unsigned int n = 1;     // within the present or the last step
     AlignedVector<Vec> own; // own part of the force on owned nodes [N]
     std::uint64_t made = 0; // so far
+
+    /** The least whole number of steps, at least @p shares: of its own longest
+        ones that make the scene's. It falls where it is safely too large only:
+        each change shakes what rests on the body by half a kick of the contact
+        forces. */
+    unsigned int next(const double shares) const;
   };
 
   /** Those of @p bodies that may; none where @p most, the largest number of
@@ -56,8 +62,8 @@ public:
   /** Null for a body that may not. */
   Member *of(const Body &body);
   const Member *of(const Body &body) const;
-  /** Whether body number @p b may. */
-  bool may(const std::size_t b) const;
+  /** Null where body number @p b may not. */
+  const Member *of(const std::size_t b) const;
   /** The scene's step and the body that decides on it, of the stable steps
       [s] of @p bodies: the least of all, members times the largest number of
       steps, and no longer than the longest of a body that deforms. */
