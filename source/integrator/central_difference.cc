@@ -19,11 +19,23 @@ CentralDifference::CentralDifference(
 {
 }
 
+double CentralDifference::items_of_rank(const Body &body) const
+{
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  return double(body.n_items()) / n_ranks;
+}
+
 void CentralDifference::initialize(const unsigned int most_substeps)
 {
   substeps.find(bodies, loads, couplings, most_substeps);
   impose_velocities(time);
   compute_forces(no_step);
+  own_steps.clear();
+  for (const auto &body : bodies)
+    own_steps.push_back(body->stable_step().dt);
+  MPI_Allreduce(MPI_IN_PLACE, own_steps.data(), own_steps.size(), MPI_DOUBLE,
+                MPI_MIN, communicator);
   hold_steps(0, false);
 }
 
@@ -31,6 +43,8 @@ void CentralDifference::kick(const double dt)
 {
   const auto timer = timers.scope("integrate");
   for (auto &body : bodies)
+  {
+    timer.count(body->nodes().n_owned);
     if (body->nodes().kick_change.empty())
       kick(body->nodes(), dt);
     else
@@ -39,6 +53,7 @@ void CentralDifference::kick(const double dt)
       for (std::size_t i = 0; i < nodes.n_owned; ++i)
         nodes.velocity[i] += (dt / nodes.inertia[i]) * nodes.kick_force(i);
     }
+  }
 }
 
 void CentralDifference::kick(NodalState &nodes, const double dt)
@@ -123,8 +138,10 @@ void CentralDifference::compute_forces(const double dt)
     {
       const auto timer = timers.scope(coupling->kind() + " search");
       coupling->update_search(0, dt);
+      timer.count(coupling->n_items());
     }
     const auto timer = timers.scope(coupling->kind());
+    timer.count(coupling->n_items());
     coupling->add_forces(dt);
   }
   substeps.complete();
@@ -136,9 +153,11 @@ void CentralDifference::compute_own_forces(Body &body, const double at,
 {
   {
     const auto timer = timers.scope("ghost exchange");
+    timer.count(body.nodes().size() - body.nodes().n_owned);
     body.update_ghosts();
   }
   const auto timer = timers.scope(body.step_timer_name());
+  timer.count(items_of_rank(body));
   try
   {
     body.compute_forces(at, dt);
@@ -184,7 +203,12 @@ void CentralDifference::update_topology(const unsigned int step)
   bool changed = false;
   substeps.before_update();
   for (auto &body : bodies)
-    changed |= body->update_topology(step, time);
+  {
+    const bool has_changed = body->update_topology(step, time);
+    if (has_changed && body->particles() != nullptr)
+      timer.count(items_of_rank(*body)); // kernels found anew
+    changed |= has_changed;
+  }
   for (auto &coupling : couplings)
     changed |= coupling->change_bodies(step);
   substeps.after_update();
@@ -231,7 +255,7 @@ StepProposal CentralDifference::propose(const bool interrupted) const
   least[n + 1] = interrupted ? -1. : 0.;
   MPI_Allreduce(MPI_IN_PLACE, least.data(), least.size(), MPI_DOUBLE, MPI_MIN,
                 communicator);
-  StepProposal proposal{none, "", least[n + 1] < 0., {}};
+  StepProposal proposal{none, "", least[n + 1] < 0.};
   std::size_t decides = n;
   substeps.bound(bodies, least, proposal.dt, decides);
   if (least[n] < proposal.dt)
@@ -240,19 +264,19 @@ StepProposal CentralDifference::propose(const bool interrupted) const
     decides = n;
   }
   proposal.body_steps.assign(least.begin(), least.begin() + n);
-  proposal.limiter = name_limiter(least[decides], decides);
+  name_limiter(least[decides], decides, proposal);
   return proposal;
 }
 
-std::string CentralDifference::name_limiter(const double dt,
-                                            const std::size_t decides) const
+void CentralDifference::name_limiter(const double dt, const std::size_t decides,
+                                     StepProposal &proposal) const
 {
   // Of equal proposals the lowest item is named, whatever the ranks.
   constexpr GlobalIndex factor = GlobalIndex(1) << 48;
   GlobalIndex who = std::numeric_limits<GlobalIndex>::max();
   const auto consider = [&](const std::size_t source, const StableStep &step)
   {
-    if (step.dt == dt)
+    if (step.dt == dt && step.dt < std::numeric_limits<double>::max())
       who = std::min(who, GlobalIndex(source) * factor + step.item);
   };
   if (decides < bodies.size())
@@ -262,10 +286,12 @@ std::string CentralDifference::name_limiter(const double dt,
       consider(bodies.size() + c, couplings[c]->stable_step());
   MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT64_T, MPI_MIN, communicator);
   const std::size_t index = who / factor;
+  if (index < bodies.size() + couplings.size())
+    proposal.source = index;
   if (index < bodies.size())
-    return bodies[index]->name + " #" + std::to_string(who % factor);
-  return index - bodies.size() < couplings.size()
-             ? couplings[index - bodies.size()]->name
-             : "";
+    proposal.limiter =
+        bodies[index]->name + " #" + std::to_string(who % factor);
+  else if (index - bodies.size() < couplings.size())
+    proposal.limiter = couplings[index - bodies.size()]->name;
 }
 } // namespace sabot

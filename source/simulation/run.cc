@@ -60,7 +60,8 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
       balance(scene, communicator), forces(scene), report(scene, balance, log),
       control_shares(scene.bodies.size()), files(folder, communicator),
       checkpoints(folder + "/checkpoint", communicator),
-      schedule(scene.settings, communicator)
+      schedule(scene.settings, communicator),
+      step_shares(scene.bodies, scene.couplings, step_limits(scene.settings))
 {
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);
@@ -132,6 +133,7 @@ void Run::start(const std::string &checkpoint)
     within_memory("the parts of the ranks", [&]() { scene.distribute(); });
     stop_early_when_asked(communicator);
     within_memory("the first forces", [&]() { stepper.initialize(); });
+    step_shares.start(stepper.own_steps());
   }
   add_warnings(physics, scene);
   report.describe_scene();
@@ -182,6 +184,7 @@ void Run::make_step(const StepProposal &proposal)
         " s to " + format("%.3e", stable) + " s (limiter: " + limiter + ")");
   if (dt < scene.settings.end_time - stepper.time())
     smallest_step = std::min(smallest_step, stable);
+  step_shares.look(proposal, dt, stepper.reaches_end(dt));
   within_step = true;
   stepper.advance(dt, stepper.substeps(proposal, dt));
   stepper.update();
@@ -192,8 +195,10 @@ void Run::loop()
 {
   while (!stepper.is_finished())
   {
+    const MessageCount before = messages_so_far();
     const StepProposal proposal =
         stepper.propose(stop_signal() != 0 || !keeps_folders());
+    step_messages.sum.add(messages_so_far().since(before));
     if (proposal.interrupted)
     {
       interrupted = true;
@@ -202,13 +207,17 @@ void Run::loop()
     if (scene.settings.checkpoint_at_end &&
         stepper.reaches_end(stepper.choose(proposal)))
       write_checkpoint();
+    const MessageCount between = messages_so_far();
     make_step(proposal);
+    step_messages.sum.add(messages_so_far().since(between));
+    ++step_messages.steps;
     const bool check = stepper.steps() >= next_check || stepper.is_finished();
     const bool recorded = check || record_due();
     if (recorded)
     {
       next_check = stepper.steps() + steps_to_next_check(stepper.steps());
       const auto timer = timers.scope("balance");
+      timer.count(items_of_rank());
       record();
     }
     write_outputs(false);
@@ -225,6 +234,14 @@ void Run::loop()
         schedule.is_due(stepper.steps(), stepper.time(), seconds_since_start()))
       write_checkpoint();
   }
+}
+
+double Run::items_of_rank() const
+{
+  double items = 0.;
+  for (const auto &body : scene.bodies)
+    items += body->n_items();
+  return items / n_ranks;
 }
 
 std::vector<BodyMeasures> Run::measure_bodies() const
@@ -268,7 +285,11 @@ void Run::write_outputs(const bool is_last)
   for (const auto &body : scene.bodies)
     moment.bodies.push_back(body.get());
   for (const auto &output : scene.outputs)
+  {
+    if (output->writes_fields() && (is_last || output->is_due(moment.time)))
+      timer.count(items_of_rank());
     output->write_when_due(moment, files);
+  }
   if (is_last && !files.history.tables.empty())
     files.write_history();
 }
@@ -278,12 +299,13 @@ void Run::write_result(const std::string &status, const std::string &reason)
   const std::vector<ZoneVerdict> zones =
       judge_zones(scene, timers, stepper.steps(), communicator);
   const RunSummary summary{
-      status,          reason,         n_ranks,
-      stepper.steps(), stepper.time(), earlier_seconds + seconds_since_start(),
-      smallest_step};
+      status,         reason,
+      n_ranks,        stepper.steps(),
+      stepper.time(), earlier_seconds + seconds_since_start(),
+      smallest_step,  message_rates(step_messages, communicator)};
   const nlohmann::ordered_json result =
-      make_result(scene, summary, balance, forces, control_shares, timers,
-                  zones, communicator);
+      make_result(scene, summary, balance, forces, control_shares, step_shares,
+                  timers, zones, communicator);
   on_first_rank(
       communicator, "write its output",
       [&]()
@@ -295,6 +317,12 @@ void Run::write_result(const std::string &status, const std::string &reason)
                 status.c_str(), summary.steps, summary.time,
                 summary.wall_seconds, balance.largest_residual());
   log.line(text);
+  const std::string steps =
+      describe_steps(step_shares, summary.steps, summary.time);
+  if (!steps.empty())
+    log.line("  " + steps);
+  if (n_ranks > 1)
+    log.line("  " + describe_messages(summary.messages));
   if (status != "failed")
     describe_residual(balance.largest_residual(), scene.settings, log);
   describe_quality(scene, control_shares, balance.energy_scale(), log);

@@ -27,6 +27,7 @@ void Run::visit_state(StateVisitor &visitor)
   balance.visit_state(visitor);
   forces.visit_state(visitor);
   control_shares.visit_state(visitor);
+  step_shares.visit_state(visitor);
   double seconds = earlier_seconds + seconds_since_start();
   visitor.visit_value("wall seconds", seconds);
   if (visitor.is_restoring())

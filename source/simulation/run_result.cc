@@ -154,31 +154,59 @@ ordered_json body_results(const Scene &scene, const ControlShares &shares)
   return bodies;
 }
 
-ordered_json timer_results(const Scene &scene, const Timers &timers,
-                           const int n_ranks)
+ordered_json timer_results(const Timers &timers, const int n_ranks)
 {
   ordered_json result = ordered_json::object();
   for (const auto &[name, phase] : timers.all())
   {
-    // Items: what the loop runs over, on all ranks, per call.
-    double items = 0.;
-    for (const auto &body : scene.bodies)
-      if (name == body->step_timer_name())
-        items += body->n_items();
-    ordered_json t;
+    ordered_json &t = result[name];
     t["seconds"] = phase.seconds;
     t["cpu_seconds"] = phase.cpu_seconds;
     t["calls"] = phase.calls;
-    int n_bodies = 0;
-    for (const auto &body : scene.bodies)
-      n_bodies += name == body->step_timer_name();
-    t["ns_per_item"] = items > 0.
-                           ? ordered_json(1e9 * phase.seconds * n_ranks *
-                                          n_bodies / (items * phase.calls))
+    t["items"] = phase.items;
+    t["ns_per_item"] = phase.items > 0.
+                           ? ordered_json(1e9 * phase.cpu_seconds / phase.items)
                            : ordered_json(nullptr);
-    result[name] = t;
+    if (n_ranks == 1)
+      continue;
+    t["messages"] = phase.messages.messages;
+    t["message_bytes"] = phase.messages.message_bytes;
+    t["reductions"] = phase.messages.reductions;
+    t["gathers"] = phase.messages.gathers;
+    t["gathered_bytes"] = phase.messages.gathered_bytes;
   }
   return result;
+}
+
+/** Steps over those that the undeformed particles or cells need by themselves,
+    and what limited how many. */
+ordered_json step_results(const StepShares &steps, const RunSummary &summary)
+{
+  ordered_json r;
+  const bool is_known = steps.own_step() > 0.;
+  r["own_step_of"] =
+      is_known ? ordered_json(steps.own_step_of()) : ordered_json(nullptr);
+  r["own_step_at_rest"] =
+      is_known ? ordered_json(steps.own_step()) : ordered_json(nullptr);
+  r["steps_over_own"] = is_known && summary.time > 0.
+                            ? number(steps.ratio(summary.steps, summary.time))
+                            : ordered_json(nullptr);
+  r["limited_by"] = ordered_json::array();
+  for (const StepShares::Row &row : steps.rows())
+    r["limited_by"].push_back(
+        {{"name", row.name},
+         {"kind", row.kind},
+         {"steps", row.steps},
+         {"share", double(row.steps) / steps.all_steps()}});
+  return r;
+}
+
+ordered_json message_results(const std::vector<MessageRates> &rates)
+{
+  ordered_json r;
+  for (const MessageRates &rate : rates)
+    r[rate.name] = {{"mean", rate.mean}, {"largest", rate.largest}};
+  return r;
 }
 
 /** Deepest penetration of all contacts, and where each coupling's energy
@@ -232,7 +260,8 @@ void add_resources(ordered_json &r, MPI_Comm communicator)
 
 ordered_json make_result(const Scene &scene, const RunSummary &summary,
                          const EnergyBalance &balance, const ForceBook &forces,
-                         const ControlShares &shares, const Timers &timers,
+                         const ControlShares &shares, const StepShares &steps,
+                         const Timers &timers,
                          const std::vector<ZoneVerdict> &zones,
                          MPI_Comm communicator)
 {
@@ -271,7 +300,9 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
   for (const Measure &m : balance.row())
     if (m.unit == "J")
       r["energy"][m.name] = number(m.value);
-  r["timers"] = timer_results(scene, timers, summary.n_ranks);
+  r["timers"] = timer_results(timers, summary.n_ranks);
+  r["step_limits"] = step_results(steps, summary);
+  r["messages_per_step"] = message_results(summary.messages);
   add_couplings(scene, r);
   add_loads(scene, r);
   r["zone"] = zone_results(zones);

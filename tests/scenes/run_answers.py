@@ -6,6 +6,7 @@ end, and forces and states over time.
 """
 import glob
 import json
+import math
 import os
 import re
 import shutil
@@ -183,7 +184,65 @@ class Answers(unittest.TestCase):
         self.assertLess(step["cpu_seconds"], 1.05 * step["seconds"])
         total = sum(t["cpu_seconds"] for name, t in r["timers"].items())
         self.assertLess(total, 1.1 * r["cpu_seconds"])
+        # Per particle and step, the first forces included.
+        self.assertEqual(step["items"], 216 * (r["steps"] + 1))
+        self.assertAlmostEqual(step["ns_per_item"] * step["items"] * 1e-9,
+                               step["cpu_seconds"])
+        self.assertGreater(r["timers"]["balance"]["items"], 0)
 
+    def test_steps_over_those_at_rest_and_what_limits_them(self):
+        # Nothing deforms: the block's own step, and a last one that is cut.
+        out = folder("steps")
+        self.run_scene(BAR, out)
+        r = result(out)
+        limits, log = r["step_limits"], read(out, "log.txt").decode()
+        own = 0.9 * limits["own_step_at_rest"]
+        self.assertEqual(limits["own_step_of"], "particles")
+        # Bulk viscosity of 0.06 shortens it wherever round-off compresses.
+        self.assertGreaterEqual(r["steps"], math.ceil(r["time"] / own))
+        self.assertLessEqual(r["steps"], math.ceil(1.06 * r["time"] / own))
+        self.assertAlmostEqual(limits["steps_over_own"],
+                               r["steps"] * own / 0.9 / r["time"])
+        # Where it no longer does, the step grows back by 5 %.
+        steps = {(row["name"], row["kind"]): row["steps"]
+                 for row in limits["limited_by"]}
+        growth = steps.pop(("growth of the step", "bound"), 0)
+        self.assertLess(growth, 0.3 * r["steps"])
+        self.assertEqual(steps, {("block", "particles"):
+                                 r["steps"] - growth - 1,
+                                 ("End time", "bound"): 1})
+        self.assertIn("limited by block, particles", log)
+        self.assertNotIn("messages", log)
+        # A bound of the scene's own.
+        self.run_scene(BAR, out + "-bound", "Largest step=0.11 us")
+        self.addCleanup(shutil.rmtree, out + "-bound")
+        limits = result(out + "-bound")["step_limits"]
+        self.assertEqual([(row["name"], row["steps"])
+                          for row in limits["limited_by"]],
+                         [("Largest step", 45), ("End time", 1)])
+        self.assertAlmostEqual(limits["steps_over_own"],
+                               46 * limits["own_step_at_rest"] / 5e-6)
+
+    def test_messages_are_counted(self):
+        out = folder("messages")
+        self.run_scene(BAR, out, ranks=2)
+        r = result(out)
+        # Two halves of a block, which see as much of each other: positions
+        # of 32 bytes, once for the first forces and each step.
+        t = r["timers"]["ghost exchange"]
+        self.assertEqual(t["messages"], r["steps"] + 1)
+        self.assertEqual(t["message_bytes"], 32 * t["items"])
+        self.assertEqual(t["items"] % (36 * (r["steps"] + 1)), 0)
+        per_step = r["messages_per_step"]
+        for kind in ("messages", "message_bytes", "reductions"):
+            self.assertGreater(per_step[kind]["mean"], 0)
+            self.assertEqual(per_step[kind]["mean"], per_step[kind]["largest"])
+        self.assertIn("per step and rank: ", read(out, "log.txt").decode())
+        # One rank tells nobody anything.
+        self.run_scene(BAR, out + "-alone")
+        self.addCleanup(shutil.rmtree, out + "-alone")
+        for rate in result(out + "-alone")["messages_per_step"].values():
+            self.assertEqual(rate["largest"], 0)
 
     def test_answers_are_the_same_on_1_2_and_3_ranks_and_resumed(self):
         # Forces, gauge, extremes; the kernel is renewed and bonds fail between
@@ -206,7 +265,8 @@ class Answers(unittest.TestCase):
             self.assertLess(r["momentum_residual_max"], 1e-12)
             self.assertGreater(r["bodies"]["core"]["bonds_broken"], 0)
             histories.append(read(out, "history.h5"))
-            answers.append((r["quantities"], r["couplings"], r["bodies"]))
+            answers.append((r["quantities"], r["couplings"], r["bodies"],
+                            r["step_limits"]))
         for history, answer in zip(histories[1:], answers[1:]):
             self.assertEqual(history, histories[0])
             self.assertEqual(answer, answers[0])

@@ -336,6 +336,15 @@ class Scenes(unittest.TestCase):
         self.assertLess(result(held)["steps"], 0.2 * result(free)["steps"])
         self.assertAlmostEqual(result(held)["stable_step_min"], 20e-9,
                                delta=1e-16)
+        for out, kind in ((free, "cells"), (held, "mass scaling")):
+            limits = result(out)["step_limits"]
+            self.assertEqual((limits["limited_by"][0]["name"],
+                              limits["limited_by"][0]["kind"]),
+                             ("block", kind))
+            self.assertGreater(limits["limited_by"][0]["share"], 0.5)
+            # The step at rest is the one without the mass.
+            self.assertEqual(limits["own_step_of"], "cells")
+            self.assertLess(limits["own_step_at_rest"], 4e-9)
         for name in ("energy_residual_max", "momentum_residual_max"):
             self.assertLess(result(held)[name], 1e-10)
         self.assertAlmostEqual(result(held)["quantities"]["speed"]["value"],
@@ -685,7 +694,8 @@ class Scenes(unittest.TestCase):
                     "time", "wall_seconds", "cpu_seconds", "peak_memory_bytes",
                     "energy_residual_max", "momentum_residual_max",
                     "stable_step_min", "bodies", "quantities", "timers",
-                    "contact", "zone", "knobs"):
+                    "step_limits", "messages_per_step", "contact", "zone",
+                    "knobs"):
             self.assertIn(key, r)
         self.assertEqual(r["status"], "completed")
         self.assertAlmostEqual(r["time"], 5e-6, delta=1e-18)

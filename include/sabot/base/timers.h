@@ -1,6 +1,8 @@
 #ifndef sabot_base_timers_h
 #define sabot_base_timers_h
 
+#include "sabot/base/message_count.h"
+
 #include <time.h>
 
 #include <chrono>
@@ -11,7 +13,8 @@ namespace sabot
 {
 /**
  * Wall-clock and processor seconds per named phase of a run on this rank ("spg
- * step", "contact", "output"), for `timers` of result.json. Processor time is
+ * step", "contact", "output"), the items that it went through and what it told
+ * other ranks, for `timers` of result.json. Processor time is
  * that of the calling thread: it does not grow while the system gives the
  * processor to others or the phase waits for the disk, but does while MPI waits
  * for other ranks, as it asks again and again. A scope costs two reads of the
@@ -34,6 +37,8 @@ public:
     double seconds = 0.;     // wall clock, sum over all calls
     double cpu_seconds = 0.; // of the processor
     long calls = 0;
+    double items = 0.; // that the calls went through, on this rank
+    MessageCount messages;
   };
 
 private:
@@ -77,7 +82,7 @@ public:
   public:
     Scope(Phase &phase, ProcessorClock &processor)
         : phase(phase), processor(processor), start(Wall::now()),
-          cpu_start(processor.at(start))
+          cpu_start(processor.at(start)), messages_start(messages_so_far())
     {
     }
     ~Scope()
@@ -86,14 +91,18 @@ public:
       phase.seconds += std::chrono::duration<double>(end - start).count();
       phase.cpu_seconds += processor.at(end) - cpu_start;
       ++phase.calls;
+      phase.messages.add(messages_so_far().since(messages_start));
     }
     Scope(const Scope &) = delete;
+    /** It goes through @p n items more, as which its cost is told. */
+    void count(const double n) const { phase.items += n; }
 
   private:
     Phase &phase;
     ProcessorClock &processor;
     const Wall::time_point start;
     const double cpu_start;
+    const MessageCount messages_start;
   };
   /**
    * Start the phase @p name; it ends with the object that is returned.

@@ -70,6 +70,7 @@ public:
   virtual bool hold(const unsigned int step, const double dt) = 0;
 
   double added_mass() const { return total; } // [kg], of all ranks
+  double smallest_step() const { return options.smallest_step; } // [s]
   /** Over the mass of the body. */
   double share() const { return total / body_mass; }
 
@@ -81,7 +82,6 @@ public:
   void visit_state(StateVisitor &visitor);
 
 protected:
-  double smallest_step() const { return options.smallest_step; } // [s]
   /** (dt_min/@p step)^2 - 1, at least 0: over its mass, what must have been
       added to an item with this step [s] of its own. */
   double share_for(const double step) const;

@@ -71,6 +71,9 @@ public:
   /** What initialize() found that can hardly be meant; the same on all
       ranks. */
   virtual std::vector<std::string> warnings() const { return {}; }
+  /** What add_forces() goes through on this rank, now: nodes that may touch,
+      loose particles that may meet, tied nodes. */
+  virtual std::size_t n_items() const { return 0; }
   /** For results, e.g. tied nodes, penetration. Collective, same on all
       ranks. */
   virtual Measures measure() const { return {}; }

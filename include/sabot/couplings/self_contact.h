@@ -58,6 +58,7 @@ public:
   void add_forces(const double dt) override;
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
+  std::size_t n_items() const override { return halo.n_owned(); }
   Measures measure() const override;
   std::vector<Resultant> resultants() const override
   {

@@ -67,6 +67,7 @@ public:
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
   void visit_state(StateVisitor &visitor) override;
+  std::size_t n_items() const override { return owned_followers.size(); }
   Measures measure() const override;
   /** On the follower what moves it as it does beside its own forces: the change
       of its momentum less the impulse of f_f; on the leader the opposite. As a

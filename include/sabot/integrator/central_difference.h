@@ -26,8 +26,9 @@ struct StepProposal
   double dt;           // [s], before the step factor
   std::string limiter; // body or coupling and item
   bool interrupted;    // some rank was asked to stop
+  int source = -1;     // of bodies, then of couplings; -1: nothing limits it
   /** Stable step of each body by itself [s]. */
-  std::vector<double> body_steps;
+  std::vector<double> body_steps = {};
 };
 
 /**
@@ -86,12 +87,17 @@ public:
   /** Of the state [s], that of positions; grows by dt in advance(). */
   double time = 0.;
   Substeps substeps;
+  /** Stable step of each body when initialize() found it, before inertia was
+      added [s]; the largest double where it bounds nothing. */
+  std::vector<double> own_steps;
 
 private:
   double last_step = 0.; // [s]
   /** Inertia of bodies that hold a smallest step; couplings pass it on. @p
       changed: whether they have forces to pass on, anyway. */
   void hold_steps(const unsigned int step, bool changed);
+  /** Cells or particles of @p body over the number of ranks. */
+  double items_of_rank(const Body &body) const;
   /** v += dt force/inertia of owned nodes. */
   void kick(const double dt);
   static void kick(NodalState &nodes, const double dt);
@@ -117,7 +123,8 @@ private:
                      std::string &problem);
   /** Body and item, or coupling, whose stable step is @p dt; @p decides: the
       body, or the number of bodies for a coupling. Collective. */
-  std::string name_limiter(const double dt, const std::size_t decides) const;
+  void name_limiter(const double dt, const std::size_t decides,
+                    StepProposal &proposal) const;
   /**
    * Throws PhysicsError with the message of the lowest rank that has one; an
    * empty @p problem is none. Collective.

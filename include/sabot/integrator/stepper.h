@@ -100,6 +100,9 @@ public:
     return time() + dt >= limits.end_time * (1. - 1e-12);
   }
 
+  /** CentralDifference::own_steps. */
+  const std::vector<double> &own_steps() const { return integrator.own_steps; }
+
   const StepLimits limits;
 
 private:

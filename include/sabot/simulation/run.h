@@ -11,6 +11,7 @@
 #include "sabot/simulation/force_book.h"
 #include "sabot/simulation/run_report.h"
 #include "sabot/simulation/scene.h"
+#include "sabot/simulation/step_shares.h"
 
 #include <chrono>
 #include <string>
@@ -92,6 +93,8 @@ private:
   bool keeps_folders();
   /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
+  /** Particles and cells of all bodies over the number of ranks. */
+  double items_of_rank() const;
   /** Of all bodies, by number. Collective. */
   std::vector<BodyMeasures> measure_bodies() const;
   /**
@@ -134,6 +137,8 @@ private:
   RunFiles files;
   CheckpointFolder checkpoints;
   CheckpointSchedule schedule;
+  StepShares step_shares;
+  StepMessages step_messages;
 
   double smallest_step = std::numeric_limits<double>::max(); // stable [s]
   std::string limiter;

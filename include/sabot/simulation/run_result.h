@@ -5,6 +5,7 @@
 #include "sabot/simulation/balance.h"
 #include "sabot/simulation/control_shares.h"
 #include "sabot/simulation/force_book.h"
+#include "sabot/simulation/step_shares.h"
 #include "sabot/simulation/zone_verdict.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -31,13 +32,15 @@ struct RunSummary
    * the end time.
    */
   double smallest_step; // stable [s]; of no meaning without steps
+  std::vector<MessageRates> messages;
 };
 
 /**
  * What result.json says of a run, in the order of the file. Collective.
  * In SI, keys with underscores. Sections: run, residuals, "bodies",
  * "quantities" (null after a failure), "energy" [J], "timers" (wall and
- * processor seconds of this rank, calls, ns per item), "contact", "couplings",
+ * processor seconds of this rank, calls, items, processor time per item [ns]),
+ * "step_limits", "messages_per_step" (and rank), "contact", "couplings",
  * "zone", "found_zones" where there are any, "knobs". Numbers that are not
  * finite become null, as JSON has none. Processor seconds and peak memory are
  * sums over ranks. The momentum residual is that of EnergyBalance, or that of
@@ -47,8 +50,9 @@ struct RunSummary
 nlohmann::ordered_json
 make_result(const Scene &scene, const RunSummary &summary,
             const EnergyBalance &balance, const ForceBook &forces,
-            const ControlShares &shares, const Timers &timers,
-            const std::vector<ZoneVerdict> &zones, MPI_Comm communicator);
+            const ControlShares &shares, const StepShares &steps,
+            const Timers &timers, const std::vector<ZoneVerdict> &zones,
+            MPI_Comm communicator);
 } // namespace sabot
 
 #endif
