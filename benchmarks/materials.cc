@@ -1,6 +1,6 @@
 // Cost of one update of each law per point, plastic flow throughout:
 // build/release/benchmark_materials
-#include "sabot/kernels/stress_update.h"
+#include "benchmarks/law_batch.h"
 #include "sabot/materials/laws.h"
 #include "sabot/materials/mie_gruneisen.h"
 #include "verification/metals.h"
@@ -21,56 +21,20 @@ void run(benchmark::State &bench, const Make &make, const bool gruneisen)
     eos = std::make_shared<MieGruneisen>(
         mie_gruneisen_parameters("al6061-t6-eos"));
   const auto law = make(eos);
-  constexpr std::size_t n = max_batch_points;
-  double stress[6][n] = {}, strain[6][n] = {}, jacobian[n], extra[n] = {},
-         factor[n], work[n], viscous[n] = {}, stiffening[n], F[9][n] = {};
-  std::vector<std::vector<double>> states;
-  std::vector<double *> views;
-  for (const StateVariable &v : law->state_variables())
-    for (int c = 0; c < (v.is_tensor ? 6 : 1); ++c)
-      states.emplace_back(n, v.initial_value);
-  for (auto &s : states)
-    views.push_back(s.data());
-  MaterialBatch batch;
-  batch.n = n;
-  batch.dt = 1e-8;
-  for (int c = 0; c < 6; ++c)
-  {
-    batch.stress[c] = stress[c];
-    batch.strain_increment[c] = strain[c];
-  }
-  batch.jacobian = jacobian;
-  batch.states = views.data();
-  batch.extra_square = extra;
-  batch.return_factor = factor;
-  batch.plastic_work = work;
-  batch.viscous_pressure = viscous;
-  if (law->needs_deformation_gradient())
-    for (int c = 0; c < 9; ++c)
-      batch.deformation_gradient[c] = F[c];
-  if (law->stiffens())
-    batch.stiffening = stiffening;
-  for (std::size_t k = 0; k < n; ++k)
-  {
-    jacobian[k] = 0.99 + 1e-4 * k;
-    strain[3][k] = 5e-4 + 1e-6 * k;
-    F[0][k] = F[4][k] = F[8][k] = std::cbrt(jacobian[k]);
-  }
-  // Start again now and then, so that strain and temperature stay in range;
-  // assignment keeps the buffers that the views point to.
-  const auto initial = states;
+  LawBatch points(*law);
+  // Start again now and then, so that strain and temperature stay in range.
   int step = 0;
   for (auto _ : bench)
   {
-    law->update(batch);
-    benchmark::DoNotOptimize(stress[0][0]);
+    law->update(points.batch);
+    benchmark::DoNotOptimize(points.batch.stress[0][0]);
     benchmark::ClobberMemory();
     if (++step % 2000 == 0)
-      states = initial;
+      points.restart();
   }
-  bench.counters["per point [s]"] =
-      benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate |
-                                benchmark::Counter::kInvert);
+  bench.counters["per point [s]"] = benchmark::Counter(
+      LawBatch::n, benchmark::Counter::kIsIterationInvariantRate |
+                       benchmark::Counter::kInvert);
 }
 
 template <typename Law>

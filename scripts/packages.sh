@@ -10,7 +10,7 @@ case ${1:-test} in
 run) ;;
 test)
   packages+=(ccache clang-format git hdf5-tools libbenchmark-dev libgtest-dev
-    universal-ctags xauth xvfb)
+    universal-ctags valgrind xauth xvfb)
   ;;
 *)
   echo "usage: scripts/packages.sh [run|test]" >&2

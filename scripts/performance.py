@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Measures what doc/performance.md states and prints its tables in markdown.
 
-scripts/performance.py [--floor PROGRAM] [--plate DIR] [--large] [--repeat N]
+scripts/performance.py [--plate DIR] [--large] [--repeat N]
 
-Needs `scripts/build.sh release` and `ninja -C build/release benchmarks`. All
-figures are processor time but for those of two ranks. Each round runs every
-program once, so that all see the same machine; medians of the rounds count.
+Needs `scripts/build.sh release`; builds the benchmarks, plain loops to compare
+with among them. All figures are processor time but for those of two ranks.
+Each round runs every program once, so that all see the same machine; medians
+of the rounds count, of ratios, too.
 
---floor  plain loops to compare with, called as PROGRAM NX NY NZ STEPS, that
-         print "... with stabilization N | ... | hex 1-pt N ns ..."
 --plate  a run of the plate (its result.json) for the shares of the phases;
          none: spacing-1.0mm.prm is run to 30 us
 --large  also 10^6 particles (3 GB)
@@ -16,7 +15,6 @@ program once, so that all see the same machine; medians of the rounds count.
 import argparse
 import json
 import os
-import re
 import statistics
 import subprocess
 import tempfile
@@ -57,18 +55,9 @@ def output_of(command):
 def benchmark(program, pattern):
     """ns per item of each benchmark that fits."""
     path = os.path.join(BUILD, "benchmark_" + program)
-    if not os.path.exists(path):
-        raise SystemExit("build it first: ninja -C build/release benchmarks")
     data = json.loads(output_of([path, "--benchmark_format=json",
                                  "--benchmark_filter=" + pattern]))
     return {b["name"]: b["cpu_time"] / b["items"] for b in data["benchmarks"]}
-
-
-def floor(program, edge, steps):
-    text = output_of([program] + [str(edge)] * 3 + [str(steps)])
-    return {"floor spg": float(re.search(r"with stabilization (\d+)",
-                                         text).group(1)),
-            "floor fem": float(re.search(r"hex 1-pt (\d+)", text).group(1))}
 
 
 def run(scene, folder, *settings, ranks=1):
@@ -114,12 +103,9 @@ def steps(arguments):
         spg += "|johnson_cook_bond_residual/100"
     rounds = []
     for _ in range(arguments.repeat):
-        measured = {}
-        if arguments.floor:
-            for name, edge in (("", 22), (" of 1e5", 47)):
-                for key, ns in floor(arguments.floor, edge,
-                                     2000000 // edge ** 3).items():
-                    measured[key + name] = ns
+        measured = {"plain " + name: ns for name, ns in benchmark(
+            "plain_loops", "(stabilized|cells)/(22|47%s)"
+            % ("|100" if arguments.large else "")).items()}
         measured.update(benchmark("spg_step", spg))
         measured.update(benchmark("fem_step", "johnson_cook"))
         rounds.append(measured)
@@ -132,29 +118,34 @@ def steps(arguments):
         return "%.2f" % statistics.median(r[name] / r[base] for r in rounds)
 
     print("## Step, ns per item (medians of %d rounds)\n" % arguments.repeat)
-    names = (("SPG, Johnson-Cook, bond residual, 10^4", "floor spg",
+    names = (("SPG, Johnson-Cook, bond residual, 10^4", "plain particles_stabilized/22",
               "johnson_cook_bond_residual/22"),
-             ("SPG, Johnson-Cook, bond residual, 10^5", "floor spg of 1e5",
+             ("SPG, Johnson-Cook, bond residual, 10^5", 
+              "plain particles_stabilized/47",
               "johnson_cook_bond_residual/47"),
-             ("SPG, Johnson-Cook, bond residual, 10^6", "-",
+             ("SPG, Johnson-Cook, bond residual, 10^6",
+              "plain particles_stabilized/100",
               "johnson_cook_bond_residual/100"),
              ("SPG, Johnson-Cook, no stabilization, 10^4", "-",
               "johnson_cook_unstabilized/22"),
-             ("FEM, Johnson-Cook, one point, viscous, 10^4", "floor fem",
+             ("FEM, Johnson-Cook, one point, viscous, 10^4", "plain cells/22",
               "johnson_cook_viscous/22"),
              ("FEM, Johnson-Cook, one point, viscous, 10^5",
-              "floor fem of 1e5", "johnson_cook_viscous/47"),
-             ("FEM, Johnson-Cook, one point, stiffness, 10^4", "floor fem",
+              "plain cells/47", "johnson_cook_viscous/47"),
+             ("FEM, Johnson-Cook, one point, stiffness, 10^4", "plain cells/22",
               "johnson_cook_stiffness/22"),
              ("FEM, Johnson-Cook, B-bar, 10^4", "-", "johnson_cook_b_bar/22"))
     table(("loop", "ns per item", "plain loop", "ratio"),
           [(name, "%.0f" % median[key],
             "%.0f" % median[base] if base in median else "–",
             against(key, base)) for name, base, key in names if key in median])
-    small, large = (median["johnson_cook_bond_residual/%d" % n]
-                    for n in (22, 47))
-    print("Growth of the SPG step from 10^4 to 10^5 particles: %.2f.\n"
-          % (large / small))
+    for edge, power in ((47, 5), (100, 6)):
+        name = "johnson_cook_bond_residual/%d" % edge
+        if name in median:
+            print("Growth of the SPG step from 10^4 to 10^%d particles: %.2f.\n"
+                  % (power, statistics.median(
+                      r[name] / r["johnson_cook_bond_residual/22"]
+                      for r in rounds)))
 
 
 def memory(folder):
@@ -177,20 +168,27 @@ def shares(arguments, folder):
     else:
         r = run(os.path.join(ROOT, "prm/perforation/spacing-1.0mm.prm"),
                 os.path.join(folder, "plate"), "End time=30 us")
-    total = sum(t["seconds"] for t in r["timers"].values())
-    print("## Phases of the plate: %d steps to %.3g ms, %.0f s\n"
-          % (r["steps"], 1e3 * r["time"], r["wall_seconds"]))
-    rows = [(name, "%.1f" % t["seconds"], "%.1f" % (100 * t["seconds"] / total),
+    total = sum(t["cpu_seconds"] for t in r["timers"].values())
+    print("## Phases of the plate: %d steps to %.3g ms, %.0f s of the "
+          "processor\n" % (r["steps"], 1e3 * r["time"], r["cpu_seconds"]))
+    rows = [(name, "%.1f" % t["cpu_seconds"],
+             "%.1f" % (100 * t["cpu_seconds"] / total),
              "%.0f" % t["ns_per_item"] if t["ns_per_item"] else "–")
             for name, t in sorted(r["timers"].items(),
-                                  key=lambda pair: -pair[1]["seconds"])
-            if t["seconds"] > 0.001 * total]
+                                  key=lambda pair: -pair[1]["cpu_seconds"])
+            if t["cpu_seconds"] > 0.001 * total]
     table(("phase", "s", "%", "ns per item"), rows)
-    contact = sum(t["seconds"] for name, t in r["timers"].items()
+    contact = sum(t["cpu_seconds"] for name, t in r["timers"].items()
                   if "contact" in name)
-    update = r["timers"]["kernel update"]["seconds"]
+    update = r["timers"]["kernel update"]["cpu_seconds"]
     print("Contact with its searches %.1f %%, kernel update %.1f %% of the "
           "run.\n" % (100 * contact / total, 100 * update / total))
+    limits = r["step_limits"]
+    print("Steps: %.2f times as many as %s at rest need; limited by\n"
+          % (limits["steps_over_own"], limits["own_step_of"]))
+    table(("what", "kind", "% of the steps"),
+          [(row["name"], row["kind"], "%.1f" % (100 * row["share"]))
+           for row in limits["limited_by"]])
 
 
 def ranks(folder):
@@ -210,12 +208,15 @@ def ranks(folder):
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--floor")
     parser.add_argument("--plate")
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--only", help="steps, memory, shares or ranks")
     arguments = parser.parse_args()
+    build = subprocess.run(["ninja", "-C", BUILD, "benchmarks"],
+                           stdout=subprocess.DEVNULL)
+    if build.returncode != 0:
+        raise SystemExit("set it up first: scripts/build.sh release")
     with open("/proc/loadavg") as file:
         print("Load of the machine at the start: %s\n" % file.read().split()[0])
     with tempfile.TemporaryDirectory() as folder:
