@@ -47,7 +47,7 @@ struct Arguments
   std::vector<std::string> words; // for sabot-verify
   std::string json_file;
   bool quiet = false, list = false, is_about_studies = false;
-  bool overwrite = false;
+  bool overwrite = false, is_about_memory = false;
   StudyArguments study;
   PictureArguments picture;
 };
@@ -162,6 +162,14 @@ ExitCode plan_scene(const Arguments &arguments)
   return with_scene(file,
                     [&](Scene &scene)
                     {
+                      if (arguments.is_about_memory)
+                      {
+                        const std::string tables =
+                            plan_memory(scene, MPI_COMM_WORLD);
+                        if (is_first_rank())
+                          std::cout << tables << std::flush;
+                        return ExitCode::done;
+                      }
                       PhysicsPlan physics = plan_physics(scene);
                       constexpr double calibration_seconds = 1.;
                       const CostPlan cost = plan_cost(
@@ -301,6 +309,8 @@ void add_plan(CLI::App &app, Arguments &arguments, Action &action)
   add_scene(command, arguments);
   command.add_option("--json", arguments.json_file,
                      "Also write it to this file");
+  command.add_flag("--memory", arguments.is_about_memory,
+                   "Tables of bytes by array instead");
   command.callback([&]() { action = {plan_scene}; });
 }
 

@@ -240,6 +240,21 @@ TEST(Spg, a_bar_pulled_apart_breaks_and_keeps_mass_and_momentum)
       low = x[i - 1];
     }
   EXPECT_GT(gap, 2e-3) << low;
+  // Loops over packs of bonds meet unused places, which must bear nothing.
+  const BondList &bonds = body.rooms().bonds;
+  std::size_t unused = 0;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    EXPECT_EQ(bonds.begin(i) % BondList::bonds_per_pack, 0u);
+    for (std::size_t b = bonds.end(i); b < bonds.packed_end(i); ++b, ++unused)
+    {
+      EXPECT_EQ(bonds.neighbor[b], i);
+      EXPECT_EQ(bonds.reverse[b], b);
+      EXPECT_EQ(bonds.weight[b], 0.f);
+      EXPECT_EQ(bonds.scaled_weight[b], 0.f);
+    }
+  }
+  EXPECT_GT(unused, 0u);
 }
 
 /** A block that is being stretched and whose bonds all fail past a stretch. */

@@ -1095,6 +1095,32 @@ class Scenes(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("holds no checkpoint", done.stdout)
 
+    def test_a_plan_tells_where_memory_goes(self):
+        done = sabot("plan", "--memory", QUICK)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        tables = {}
+        for line in done.stdout.splitlines():
+            cells = [cell.strip() for cell in line.split("|")]
+            if line.endswith((" particles", " cells")):
+                name, n = line.split()[:2]
+                tables[name] = (int(n), {})
+                rows = tables[name][1]
+            elif len(cells) == 5 and cells[1] not in ("array", "---"):
+                rows[cells[1]] = (float(cells[2]), float(cells[3]))
+        self.assertEqual(len(tables), 2, done.stdout)
+        for n, rows in tables.values():
+            # A position is four numbers; ghosts there are none.
+            self.assertAlmostEqual(rows["stress"][0] * n / 1e6,
+                                   rows["stress"][1], delta=1e-3)
+            self.assertGreaterEqual(rows["positions"][0], 32.)
+            total = rows.pop("all")
+            self.assertAlmostEqual(sum(r[0] for r in rows.values()), total[0],
+                                   delta=0.1 * len(rows))
+        self.assertIn("bonds: residuals", done.stdout)
+        peak = float(re.search(r"so far: (\d+) MB", done.stdout).group(1))
+        self.assertGreater(peak, sum(n * rows["stress"][0] * 1e-6
+                                     for n, rows in tables.values()))
+
     def test_a_plan_is_right_within_a_factor_of_1_5(self):
         taylor = os.path.join(SOURCE, "prm/taylor/symmetric.prm")
         coarse = ("--set", "Bodies/upper/Cell size=1.2 mm", "--set",

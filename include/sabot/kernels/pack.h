@@ -75,19 +75,19 @@ inline Pack pack_sqrt(const Pack a)
 }
 
 /**
- * Cube root for 1e-3 < a < 1e3, to round-off: Halley's iteration, y <- y (y^3 +
- * 2 a)/(2 y^3 + a), from the tangent at 1. Of a volume ratio, which stays well
- * within these bounds in any cell that a run keeps; a fixed number of
- * iterations has no branch.
+ * Cube root of positive numbers, to round-off: Halley's iteration, y <- y (y^3 +
+ * 2 a)/(2 y^3 + a), from a guess by a third of the exponent.
  *
- * Halley's iteration converges cubically, and six steps suffice from the first
- * guess (2 + a)/3 over the whole interval given; outside of it the result
- * may be off, without any notice.
+ * The guess divides the upper half of the bits by 3 and is within 4 %; the
+ * iteration converges cubically, so that three steps do, always the same number
+ * and without a branch. Zero, negative and subnormal numbers give nonsense.
  */
 inline Pack pack_cbrt(const Pack a)
 {
-  Pack y = (2. + a) / 3.;
-  for (int i = 0; i < 6; ++i)
+  typedef std::uint64_t Bits __attribute__((vector_size(32)));
+  const Bits third = (((Bits)a >> 32) * 0x55555556u >> 32) + 715094163u;
+  Pack y = (Pack)(third << 32);
+  for (int i = 0; i < 3; ++i)
   {
     const Pack cube = y * y * y;
     y *= (cube + 2. * a) / (2. * cube + a);

@@ -124,6 +124,15 @@ struct CostPlan
 PhysicsPlan plan_physics(const Scene &scene);
 
 /**
+ * Bytes by array of every body that has items, as Markdown tables: per item and
+ * in all, with the arrays of all ranks together, and the peak of the process
+ * beside them. Sets the scene up and makes one step, so that arrays are there
+ * that a step asks for. What only set-up and kernel updates need for a while is
+ * in the peak alone. Collective; the scene is used up.
+ */
+std::string plan_memory(Scene &scene, MPI_Comm communicator);
+
+/**
  * Sets the scene up and makes its first steps for about @p seconds of wall
  * time. Steps: the rest of the run at the mean step of the second half of
  * them, shrunk as the cells at an impact are flattened. Collective.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -194,7 +195,8 @@ void BondList::connect(const Rows &rows,
     local[global_id[i]] = i;
 
   std::vector<std::size_t> new_start(1, 0);
-  std::vector<std::uint32_t> new_count, new_neighbor;
+  std::vector<std::uint32_t> new_count;
+  AlignedVector<std::uint32_t> new_neighbor;
   std::vector<std::uint32_t> new_origin;
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
@@ -210,6 +212,8 @@ void BondList::connect(const Rows &rows,
       new_origin.push_back(kept ? old : is_new);
       new_neighbor.push_back(local.at(j));
     }
+    new_neighbor.resize(packed(new_neighbor.size()), i);
+    new_origin.resize(new_neighbor.size(), is_new);
     new_start.push_back(new_neighbor.size());
     new_count.push_back(rows[i].size());
   }
@@ -222,8 +226,8 @@ void BondList::connect(const Rows &rows,
   count.swap(new_count);
   neighbor.swap(new_neighbor);
   origin.swap(new_origin);
-  weight.assign(neighbor.size(), 0.);
-  scaled_weight.assign(neighbor.size(), 0.);
+  weight.assign(neighbor.size(), 0.f);
+  scaled_weight.assign(neighbor.size(), 0.f);
   reconnect();
 }
 
@@ -238,7 +242,8 @@ std::size_t BondList::find(const std::size_t i,
 
 void BondList::reconnect()
 {
-  reverse.assign(neighbor.size(), 0);
+  reverse.assign(neighbor.size() + look_ahead, 0u);
+  std::iota(reverse.begin(), reverse.begin() + neighbor.size(), 0u);
   std::vector<int> owners;
   std::vector<GlobalIndex> keys;
   for (std::size_t i = 0; i < n_owned; ++i)
@@ -267,6 +272,7 @@ void BondList::reconnect()
 bool BondList::remove(const std::vector<char> &dead)
 {
   int has_changed = 0;
+  origin.resize(neighbor.size());
   for (std::size_t i = 0; i < n_owned; ++i)
   {
     std::size_t to = begin(i);
@@ -290,8 +296,13 @@ bool BondList::remove(const std::vector<char> &dead)
       }
       ++to;
     }
-    if (to != last)
-      count[i] = to - begin(i);
+    count[i] = to - begin(i);
+    for (; to < last; ++to)
+    {
+      neighbor[to] = i;
+      reverse[to] = to;
+      weight[to] = scaled_weight[to] = 0.f;
+    }
   }
   // Bonds that go or move at a rank's border change what is exchanged.
   MPI_Allreduce(MPI_IN_PLACE, &has_changed, 1, MPI_INT, MPI_MAX, communicator);

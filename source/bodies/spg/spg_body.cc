@@ -119,6 +119,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   stable.allocate(n);
   stabilization->allocate(parts);
   renumber(rows);
+  BondList::Rows().swap(rows); // before the calibration's peak of memory
 
   kernel.start(fields, node_exchange);
   fields.kernel_reference_position = nodal_state.position;
@@ -160,6 +161,7 @@ void SpgBody::renumber(const BondList::Rows &rows)
   fields.resize(ids.size());
   failure.renew_ghosts(node_exchange, ids.size());
   stabilization->carry_bonds(bonds);
+  bonds.settle();
   stabilization->renew_ghosts(parts);
 }
 
@@ -264,6 +266,7 @@ void SpgBody::update_kernel(const unsigned int step)
   const std::vector<char> failed_already = failure.is_failed;
   if (failure.remove(nodal_state, bonds, node_exchange))
     stabilization->carry_bonds(bonds);
+  bonds.settle();
   if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
   {
     renumber(search_neighbors(options, nodal_state, bonds, fields, failure,

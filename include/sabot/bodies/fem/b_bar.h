@@ -49,6 +49,12 @@ public:
   /** Compacts geometry and motion with the points. */
   void keep(const std::vector<std::size_t> &kept) override;
   void visit_state(StateVisitor &visitor) override;
+  void list_memory(MemoryTable &table) const override
+  {
+    Hexahedra::list_memory(table);
+    table.add("geometry of cells", geometry);
+    table.add("motion of cells", motion);
+  }
 
 protected:
   Mat gradient(const std::size_t point) const override;

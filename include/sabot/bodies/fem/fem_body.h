@@ -36,7 +36,7 @@ namespace sabot
  * reported by one. Sums over ranks are exact (ExactSum), so reports are the
  * same for every number of ranks.
  */
-class FemBody : public ScaledBody, public FaceView
+class FemBody : public ScaledBody, public FaceView, public MemoryView
 {
 public:
   /** @p mesh and @p material are complete; nothing is collective. Throws
@@ -100,6 +100,7 @@ public:
   /** Eroded cells first: a reader must take them out before it fills arrays.
       External work is part of it. */
   void visit_state(StateVisitor &visitor) override;
+  void list_memory(MemoryTable &table) const override;
 
   /** Faces whose four nodes are all here, owned nodes of them; none on
       planes of symmetry. Local. */

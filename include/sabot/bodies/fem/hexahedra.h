@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_fem_hexahedra_h
 #define sabot_bodies_fem_hexahedra_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body.h"
@@ -80,6 +81,8 @@ public:
       from the mesh before, and eroded cells are taken out before arrays are
       filled. */
   virtual void visit_state(StateVisitor &visitor);
+  /** Arrays of cells and points; rules add their own. Local. */
+  virtual void list_memory(MemoryTable &table) const;
 
   std::size_t size() const { return connectivity.size(); }
   /** Local nodes of the corners, VTK order; numbers of the cells in the mesh.

@@ -64,6 +64,12 @@ public:
     return keeps_reference_modes();
   }
   void visit_state(StateVisitor &visitor) override;
+  void list_memory(MemoryTable &table) const override
+  {
+    Hexahedra::list_memory(table);
+    table.add("geometry of cells", geometry);
+    table.add("motion of cells", motion);
+  }
 
 protected:
   Mat gradient(const std::size_t point) const override;

@@ -2,6 +2,7 @@
 #define sabot_bodies_spg_bond_list_h
 
 #include "sabot/base/ghost_exchange.h"
+#include "sabot/base/memory_table.h"
 #include "sabot/base/types.h"
 #include "sabot/kernels/vec.h"
 
@@ -18,14 +19,23 @@ namespace sabot
  * connect() takes over new ones. What others keep per bond follows by carry()
  * after connect() and remove().
  *
- * Owned row i is [begin(i), end(i)); after removals there are unused places
- * behind end(i), and arrays over bonds have capacity() of them, then the
- * ghosts' bonds that end here. A bond is a pair of local indices; it has its
+ * Owned row i is [begin(i), end(i)); begin(i) is a multiple of bonds_per_pack,
+ * and behind end(i) there are unused places, to whole packs and after removals.
+ * There the particle is its own neighbor with weights zero, and carry() leaves
+ * zeros, so that loops over packs need no test: they go on to packed_end(i).
+ * Arrays over bonds have capacity() places, then the ghosts' bonds that end
+ * here. A bond is a pair of local indices; it has its
  * state at both ends, each owned by the rank of its particle.
  */
 class BondList
 {
 public:
+  /** Bonds that loops take at once (Pack). */
+  static constexpr std::size_t bonds_per_pack = 4;
+  /** Bonds by which loops over reverse[] ask for data beforehand: where the
+      other end of a bond is kept no processor guesses. */
+  static constexpr std::size_t look_ahead = 64;
+
   /** Row of neighbors, by global number, of every owned particle. */
   using Rows = std::vector<std::vector<GlobalIndex>>;
 
@@ -81,7 +91,8 @@ public:
 
   /** Let an array over bonds follow the last connect() or remove(): values
       of bonds that stayed move to their new places, new bonds get zeros,
-      ghosts' bonds room. Call exactly once per array and change. Local;
+      ghosts' bonds room. Call exactly once per array and change, before
+      settle(). Local;
       after connect() ghosts' entries have to be exchanged by
       update_ghosts(). */
   template <typename Array>
@@ -96,8 +107,28 @@ public:
           data[b] = old[origin[b]];
   }
 
+  /** All arrays have been carried: forget where bonds were. */
+  void settle() { std::vector<std::uint32_t>().swap(origin); }
+
+  void list_memory(MemoryTable &table) const
+  {
+    table.add("bonds: neighbors", neighbor);
+    table.add("bonds: other ends", reverse);
+    table.add("bonds: weights", weight);
+    table.add("bonds: scaled weights", scaled_weight);
+    table.add("bonds: former places", origin);
+    table.add("rows of bonds: starts", row_start);
+    table.add("rows of bonds: lengths", count);
+    table.add("rows of bonds: node numbers", id);
+  }
+
   std::size_t begin(const std::size_t i) const { return row_start[i]; }
   std::size_t end(const std::size_t i) const { return row_start[i] + count[i]; }
+  /** end(i) rounded up to whole packs. */
+  std::size_t packed_end(const std::size_t i) const
+  {
+    return row_start[i] + packed(count[i]);
+  }
   /** Bonds of owned particle i that have not failed. */
   std::size_t n_bonds(const std::size_t i) const { return count[i]; }
   /** Places of bonds of owned particles, used or not; constant between two
@@ -118,14 +149,17 @@ public:
     exchange.update(data);
   }
 
-  std::vector<std::uint32_t> neighbor; // local index
+  AlignedVector<std::uint32_t> neighbor; // local index
   /** The same bond seen from the neighbor: data[reverse[b]] is its value at
-      the other end, ghosts' included. */
+      the other end, ghosts' included. Behind capacity() there are look_ahead
+      places more, zero. */
   std::vector<std::uint32_t> reverse; // into arrays over n_with_ghosts()
   /** Symmetric weights, set by ParticleApproximation::update(): phi, and phi
       times the mean of |xi|^2 at both ends over |dX|^2 [1/m^2], the weight in
-      units of the kernel's size. */
-  std::vector<double> weight, scaled_weight;
+      units of the kernel's size. In single precision: any symmetric numbers
+      near those of the spline make consistent functions, as long as moments
+      are sums of the very numbers that are stored. */
+  AlignedVector<float> weight, scaled_weight;
 
   /** Rows, for checkpoints. After overwriting them, call reconnect(). */
   std::vector<std::uint32_t> count;
@@ -138,6 +172,11 @@ private:
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;
 
   static constexpr std::uint32_t is_new = 0xffffffffu;
+
+  static std::size_t packed(const std::size_t n)
+  {
+    return (n + bonds_per_pack - 1) / bonds_per_pack * bonds_per_pack;
+  }
 
   std::vector<std::size_t> row_start;
   std::vector<std::uint32_t> origin; // before the last change, of carry()

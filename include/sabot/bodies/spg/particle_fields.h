@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_particle_fields_h
 #define sabot_bodies_spg_particle_fields_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 #include "sabot/kernels/vec.h"
@@ -76,6 +77,19 @@ struct ParticleFields
   /** Owned and ghost entries, as kernels of ghosts are those of the last
       update. */
   void visit_state(StateVisitor &visitor);
+  void list_memory(MemoryTable &table) const
+  {
+    table.add("positions of the kernel update", kernel_reference_position);
+    table.add("kernels", kernel);
+    table.add("generalized stress", generalized_stress);
+    table.add("volumes of the start", reference_volume);
+    table.add("volumes of the kernel update", kernel_reference_volume);
+    table.add("F since the kernel update", incremental_deformation_gradient);
+    table.add("F at the kernel update", kernel_reference_deformation_gradient);
+    table.add("stiffening", stiffening);
+    table.add("own forces", own_force);
+    table.add("own steps", own_step);
+  }
 
 private:
   bool stiffens = false;

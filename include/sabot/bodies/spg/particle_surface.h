@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_particle_surface_h
 #define sabot_bodies_spg_particle_surface_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/velocity_constraints.h"
@@ -75,6 +76,13 @@ public:
   std::vector<std::size_t> particles_on(const std::uint32_t faces) const;
 
   /** Where the model is cut, the same on every rank. */
+  void list_memory(MemoryTable &table) const
+  {
+    table.add("surface: faces", on_face);
+    table.add("surface: normals", outward);
+    table.add("surface: spacings", spacing);
+    table.add("surface: areas", kept_shares);
+  }
   const std::vector<SymmetryPlane> &planes() const { return symmetry_planes; }
   /** All particles: any may come to lie open, so all may touch faces.
       node_share is 1/2 per plane of symmetry through the particle; no faces.

@@ -3,6 +3,7 @@
 
 #include "sabot/base/types.h"
 #include "sabot/bodies/material_points.h"
+#include "sabot/kernels/pack.h"
 
 #include <cstddef>
 #include <limits>
@@ -36,6 +37,17 @@ struct ParticleRange
   std::size_t size() const { return end - begin; }
 };
 
+/** Sums over the bonds of a particle as sum_over_bonds() leaves them. */
+struct BondSums
+{
+  Pack lanes[3]; // the nine of a matrix by rows, then the three of a vector
+  /** The vector. */
+  Vec function_sum() const
+  {
+    return vec(lanes[2][1], lanes[2][2], lanes[2][3]);
+  }
+};
+
 /** What the stages of the SPG step hand on, of one batch. One batch at a
     time, places 0 to range.size() - 1; nothing in it survives the batch. Not
     on the stack of the loop, so that alignment and address stay. */
@@ -46,7 +58,7 @@ struct StepWork : PointStepArrays<spg_batch_size>
   /** Square of the stabilization's stress [Pa^2]; see MaterialBatch. 3 tau^2
       in q^2 = 3/2 s : s + 3 tau^2 <= sigma_y^2, so that mean deviator and
       fluctuation share one yield condition (doc/theory/spg.md). */
-  double extra_square[spg_batch_size] = {};
+  alignas(64) double extra_square[spg_batch_size] = {};
   /** F_new F_old^-1 - 1: how the particle's neighborhood moves in this step,
       by which residuals and higher gradients follow. In the frame of the
       last step; not symmetric. */
@@ -55,7 +67,11 @@ struct StepWork : PointStepArrays<spg_batch_size>
       forces act on the kernel's reference configuration. By rows; det F_inc
       is not in it. */
   Mat inverse_transpose[spg_batch_size];
-  double step[spg_batch_size]; // stable one, as of now [s]
+  alignas(64) double step[spg_batch_size]; // stable one, as of now [s]
+  double incremental_jacobian[spg_batch_size]; // det F_inc
+  /** Of the first stage: (dx - dX) (x) g' and g', see sum_over_bonds(). The
+      latter is what the particle's own stress acts on. */
+  BondSums bond_sums[spg_batch_size];
 };
 
 /** What the SPG step finds out about all owned particles on the way. Of this

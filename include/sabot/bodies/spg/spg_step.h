@@ -46,8 +46,9 @@ void update_stress(const ParticleRange &range, SpgParts &body, const double dt);
  * reference_volume that of the start, so both give J_inc V_ref. The total
  * stress is in the present frame, P maps vectors of X to forces. Stored by
  * columns, with the form's stiffness theta k in the fourth lane of the first:
- * one exchange and one load per neighbor bring both. V P [J], Q [J/m^2]. Local;
- * writes owned entries.
+ * one exchange and one load per neighbor bring both. V P [J], Q [J/m^2]. Starts
+ * the particle's force with what its own stress and the form do to it, Q times
+ * the sum of g' over its bonds. Local; writes owned entries.
  */
 template <bool stored_gradients, typename Form>
 inline void generalize_stress(const ParticleRange &range, const StepWork &work,
@@ -57,6 +58,7 @@ inline void generalize_stress(const ParticleRange &range, const StepWork &work,
   const double *const reference_volume = body.fields.reference_volume.data();
   const Mat *const moment_inverse = body.approximation.moment_inverse.data();
   Mat *const generalized_stress = body.fields.generalized_stress.data();
+  Vec *const force = body.nodes.force.data();
   for (std::size_t i = range.begin; i < range.end; ++i)
   {
     const std::size_t k = i - range.begin;
@@ -67,7 +69,11 @@ inline void generalize_stress(const ParticleRange &range, const StepWork &work,
     Mat moment = spatial * work.inverse_transpose[k];
     if constexpr (!stored_gradients)
       moment = moment * moment_inverse[i];
-    generalized_stress[i] = transpose(moment);
+    const Mat columns = transpose(moment);
+    force[i] = multiply_columns(columns, work.bond_sums[k].function_sum());
+    if constexpr (Form::has_bond_forces)
+      force[i] += form.own_bond_forces(i, k);
+    generalized_stress[i] = columns;
     generalized_stress[i].row[0][3] = stiffness;
   }
 }
@@ -84,52 +90,74 @@ struct ForceViews
   std::size_t n_owned;
 };
 
+/** Into @p product: phi dX of the four bonds of a particle at @p Xi from @p b
+    on [m]. */
+inline void weigh_bonds(const ForceViews &in, const Vec Xi, const std::size_t b,
+                        double product[3][n_lanes])
+{
+  Pack dX[3];
+  gather(in.kernel_position, in.bonds.neighbor.data() + b, dX);
+  const Pack w = load_floats(in.bonds.weight.data() + b);
+  for (int d = 0; d < 3; ++d)
+    store_pack(product[d], w * (dX[d] - Xi[d]));
+}
+
 /**
- * Last stage: every owned particle gathers its own force, neighbors in global
- * order, so that results do not depend on the number of ranks,
+ * Last stage: every owned particle gathers what its neighbors do to it, in
+ * global order, so that results do not depend on the number of ranks,
  *
  *   f_N = sum_J phi (Q_N + Q_J) dX             (least squares),
  *   f_N = sum_J [ V_N P_N g_NJ - V_J P_J g_JN ]  (stored gradients),
  *
- * and per bond what the form adds by its neighbors' fourth lanes.
+ * of which generalize_stress() has left the part of Q_N, and per bond what the
+ * form adds by its neighbors' fourth lanes.
  *
  * Every term appears at the other end with the opposite sign, so the sum of all
  * forces is zero to round-off. A bond is computed twice, once from each end,
- * which needs no locks and no exchange of forces. Overwrites force [n_owned] in
- * N, fourth lanes 0. Local.
+ * which needs no locks and no exchange of forces. Adds to force [n_owned] in N,
+ * fourth lanes 0. Numbers of a bond go through memory, from where they are
+ * spread over a register for nothing. Local.
  */
 template <bool stored_gradients, typename Form>
 inline void gather_forces(const ForceViews &in, const Form &form,
                           Vec *const force)
 {
-  const Vec *const X = in.kernel_position;
   const std::uint32_t *const neighbor = in.bonds.neighbor.data();
   const std::uint32_t *const reverse = in.bonds.reverse.data();
-  const double *const weight = in.bonds.weight.data();
-  const Vec *const gradient = in.shape_gradient;
   const Mat *const stress = in.generalized_stress;
   const auto bond_force = form.bond_forces(in.bonds);
   for (std::size_t i = 0; i < in.n_owned; ++i)
   {
-    const Mat Q = stress[i];
-    const double own_stiffness = Q.row[0][3];
-    const Vec Xi = X[i];
-    Vec f = {};
-    const std::size_t last = in.bonds.end(i);
-    for (std::size_t b = in.bonds.begin(i); b < last; ++b)
+    const Vec Xi = in.kernel_position[i];
+    Vec f[3] = {force[i], Vec{}, Vec{}};
+    const std::size_t last = in.bonds.packed_end(i);
+    for (std::size_t b = in.bonds.begin(i); b < last; b += n_lanes)
     {
-      const std::uint32_t j = neighbor[b];
-      const Mat &QJ = stress[j];
-      if constexpr (stored_gradients)
-        f += multiply_columns(Q, gradient[b]) -
-             multiply_columns(QJ, gradient[reverse[b]]);
-      else
-        f += multiply_columns(Q + QJ, weight[b] * (X[j] - Xi));
+      alignas(32) double product[3][n_lanes];
+      if constexpr (!stored_gradients)
+        weigh_bonds(in, Xi, b, product);
       if constexpr (Form::has_bond_forces)
-        f += bond_force(b, reverse[b], own_stiffness, QJ.row[0][3]);
+        for (std::size_t l = 0; l < n_lanes; ++l)
+          bond_force.prefetch(reverse[b + BondList::look_ahead + l]);
+      for (std::size_t l = 0; l < n_lanes; ++l)
+      {
+        const Mat &QJ = stress[neighbor[b + l]];
+        if constexpr (stored_gradients)
+        {
+          const Vec &g = in.shape_gradient[reverse[b + l]];
+          for (int d = 0; d < 3; ++d)
+            f[d] -= g[d] * QJ.row[d];
+        }
+        else
+          for (int d = 0; d < 3; ++d)
+            f[d] += product[d][l] * QJ.row[d];
+        if constexpr (Form::has_bond_forces)
+          f[l % 3] -= bond_force(b + l, reverse[b + l], QJ.row[0][3]);
+      }
     }
-    f[3] = 0.;
-    force[i] = f;
+    f[0] += f[1] + f[2];
+    f[0][3] = 0.;
+    force[i] = f[0];
   }
 }
 
@@ -144,7 +172,9 @@ inline void gather_forces(const ForceViews &in, const Form &form,
  *   double add_stress(i, k, V, work, spatial); // its part of V sigma; returns
  *                                    // what neighbors get to know
  *   void exchange(body);             // what belongs to ghosts' bonds
- *   auto bond_forces(bonds);         // functor of one bond's force
+ *   Vec own_bond_forces(i, k);       // on its own particle, after add_stress
+ *   auto bond_forces(bonds);         // functor of what the neighbor's end of a
+ *                                    // bond takes off the force
  *   void add_forces(body);           // what is not a sum over one ring
  *
  * Collective.

@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_stable_step_h
 #define sabot_bodies_spg_stable_step_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 
@@ -75,6 +76,7 @@ public:
   const double *data() const { return step.data(); }
 
   void visit_state(StateVisitor &visitor);
+  void list_memory(MemoryTable &table) const { table.add("stable steps", step); }
 
 private:
   double least_bound(const SpgParts &body, MPI_Comm communicator) const;

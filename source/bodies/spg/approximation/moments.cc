@@ -77,8 +77,9 @@ void ParticleApproximation::find_moments(BondList &bonds,
       const std::uint32_t j = bonds.neighbor[b];
       const Vec dX = X[j] - X[i];
       const Vec xi = H_inverse * dX, xi_there = kernel_inverse[j] * dX;
-      const double w = 0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there));
-      bonds.weight[b] = w;
+      // As stored, which makes the functions exact for linear fields.
+      const double w = bonds.weight[b] =
+          0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there));
       const double square = 0.5 * w * (norm_square(xi) + norm_square(xi_there));
       // Loose particles on an axis of symmetry may be pressed onto each other.
       const double distance_square = norm_square(dX);

@@ -10,6 +10,31 @@ namespace sabot
 {
 namespace
 {
+/** Sums over the bonds of one particle. */
+struct ResidualSums
+{
+  Pack on_bond[3][3] = {};  // w e (x) dx
+  Pack on_residual[6] = {}; // w e (x) e: xx, yy, zz, xy, yz, xz
+  Pack residual[3] = {};    // w e
+  Pack old_trial = {}, old_square = {};
+
+  void add(const Pack w, const Pack e[3], const Pack e_old[3], const Pack dx[3])
+  {
+    const Pack we[3] = {w * e[0], w * e[1], w * e[2]};
+    for (int d = 0; d < 3; ++d)
+    {
+      residual[d] += we[d];
+      on_residual[d] += we[d] * e[d];
+      on_residual[3 + d] += we[d == 1] * e[d == 0 ? 1 : 2];
+      for (int c = 0; c < 3; ++c)
+        on_bond[d][c] += we[d] * dx[c];
+    }
+    old_trial += we[0] * e_old[0] + we[1] * e_old[1] + we[2] * e_old[2];
+    old_square += w * (e_old[0] * e_old[0] + e_old[1] * e_old[1] +
+                       e_old[2] * e_old[2]);
+  }
+};
+
 /**
  * Per bond the residual e = dx - F dX, by increments with the history of theta;
  * per particle the energy 1/2 k sum w |theta e|^2 with
@@ -54,6 +79,14 @@ public:
                         AlignedVector<Vec> &force) override;
   void visit_bonds(StateVisitor &visitor, const SpgParts &body) override;
   void visit_state(StateVisitor &visitor) override;
+  void list_memory(MemoryTable &table) const override
+  {
+    Stabilization::list_memory(table);
+    table.add("bonds: residuals", residual);
+    table.add("positions of the last step", previous_position);
+    table.add("stabilization: stiffness", stiffness);
+    table.add("stabilization: return factors", factor);
+  }
 
   // Of the step, see spg_step.h
   static constexpr bool has_bond_forces = true;
@@ -61,15 +94,23 @@ public:
   double add_stress(const std::size_t i, const std::size_t k, const double V,
                     const StepWork &work, Mat &spatial);
   void exchange(const SpgParts &body);
+  /** theta k sum w e: what a particle's own ends of its bonds do to it. */
+  Vec own_bond_forces(const std::size_t i, const std::size_t k) const
+  {
+    return factor[i] * stiffness[i] * batch.residual_sum[k];
+  }
   struct BondForce
   {
-    const double *weight;      // w [1/m^2]
-    const StoredVec *residual; // e [m]
-    Vec operator()(const std::size_t b, const std::size_t reverse,
-                   const double own, const double there) const
+    const float *weight;     // w [1/m^2]
+    const BondVec *residual; // e [m]
+    void prefetch(const std::size_t reverse) const
     {
-      return weight[b] *
-             (own * load(residual[b]) - there * load(residual[reverse]));
+      __builtin_prefetch(&residual[reverse]);
+    }
+    Vec operator()(const std::size_t b, const std::size_t reverse,
+                   const double stiffness_there) const
+    {
+      return (weight[b] * stiffness_there) * load(residual[reverse]);
     }
   };
   BondForce bond_forces(const BondList &bonds) const
@@ -84,8 +125,11 @@ public:
   }
 
 private:
+  /** Into place @p k of the batch; @p k_N: of the particle. */
+  void keep(const ResidualSums &sums, const double k_N, const std::size_t k);
+
   const double coefficient;             // alpha
-  AlignedVector<StoredVec> residual;    // e [m], over n_with_ghosts()
+  AlignedVector<BondVec> residual;      // e [m], over n_with_ghosts()
   AlignedVector<Vec> previous_position; // of the last evaluation, with ghosts
   std::vector<double> stiffness;        // k_N [N m]
   std::vector<double> factor;           // theta, due on residuals
@@ -97,13 +141,35 @@ private:
         old_square[spg_batch_size];
     Mat residual_on_bond[spg_batch_size];     // sum w e (x) dx
     Mat residual_on_residual[spg_batch_size]; // sum w e (x) e
+    Vec residual_sum[spg_batch_size];         // sum w e
   };
   Batch batch;
 };
 
+inline void BondResidual::keep(const ResidualSums &sums, const double k_N,
+                               const std::size_t k)
+{
+  const auto &B = sums.on_bond;
+  const auto &R = sums.on_residual;
+  const Pack zero = {};
+  for (int d = 0; d < 3; ++d)
+    batch.residual_on_bond[k].row[d] =
+        sum_lanes(B[d][0], B[d][1], B[d][2], zero);
+  const Pack diagonal = sum_lanes(R[0], R[1], R[2], sums.old_trial),
+             mixed = sum_lanes(R[3], R[4], R[5], sums.old_square);
+  batch.residual_on_residual[k] = {{vec(diagonal[0], mixed[0], mixed[2]),
+                                    vec(mixed[0], diagonal[1], mixed[1]),
+                                    vec(mixed[2], mixed[1], diagonal[2])}};
+  batch.residual_sum[k] =
+      sum_lanes(sums.residual[0], sums.residual[1], sums.residual[2], zero);
+  batch.trial_square[k] = k_N * (diagonal[0] + diagonal[1] + diagonal[2]);
+  batch.old_trial[k] = k_N * diagonal[3];
+  batch.old_square[k] = k_N * mixed[3];
+}
+
 void BondResidual::trial(const ParticleRange &range, SpgParts &body)
 {
-  // By increments, which needs no dX:
+  // By increments, which needs no dX, four bonds at once:
   //   e = dx - F_new F_old^-1 (dx_old - theta_old e_old).
   StepWork &work = body.work;
   const BondList &bonds = body.bonds;
@@ -111,42 +177,38 @@ void BondResidual::trial(const ParticleRange &range, SpgParts &body)
   const Vec *const x_old = previous_position.data();
   const double *const volume = body.fields.kernel_reference_volume.data();
   const std::uint32_t *const neighbor = bonds.neighbor.data();
-  const double *const weight = bonds.scaled_weight.data();
-  StoredVec *const stored_residual = residual.data();
+  const float *const weight = bonds.scaled_weight.data();
+  BondVec *const stored_residual = residual.data();
   const double modulus = 3. * body.points.law().shear_modulus();
   for (std::size_t i = range.begin; i < range.end; ++i)
   {
     const std::size_t k = i - range.begin;
-    const Mat columns = transpose(work.relative_gradient[k]);
+    const Mat A = work.relative_gradient[k]; // F_new F_old^-1 - 1
     const Vec xi = x[i], xi_old = x_old[i];
     const double theta = factor[i];
-    Vec trial_square = {}, old_trial = {}, old_square = {};
-    Mat on_bond = Mat::zero(), on_residual = Mat::zero();
-    const std::size_t last = bonds.end(i);
-    for (std::size_t b = bonds.begin(i); b < last; ++b)
+    ResidualSums sums;
+    const std::size_t last = bonds.packed_end(i);
+    for (std::size_t b = bonds.begin(i); b < last; b += n_lanes)
     {
-      const std::uint32_t j = neighbor[b];
-      const Vec dx = x[j] - xi, dx_old = x_old[j] - xi_old;
-      const Vec e_old = theta * load(stored_residual[b]);
-      const StoredVec stored = store(dx - dx_old + e_old -
-                                     multiply_columns(columns, dx_old - e_old));
-      stored_residual[b] = stored;
+      Pack dx[3], carried[3], e_old[3], e[3];
+      gather(x, neighbor + b, dx);
+      gather(x_old, neighbor + b, carried);
+      load_bonds(stored_residual + b, e_old);
+      for (int d = 0; d < 3; ++d)
+      {
+        e_old[d] *= theta;
+        dx[d] -= xi[d];
+        carried[d] = carried[d] - xi_old[d] - e_old[d];
+      }
+      for (int d = 0; d < 3; ++d)
+        e[d] = dx[d] - carried[d] -
+               (A.row[d][0] * carried[0] + A.row[d][1] * carried[1] +
+                A.row[d][2] * carried[2]);
       // As stored: forces along e itself keep the angular momentum exact.
-      const Vec e = load(stored);
-      const Vec we = weight[b] * e;
-      trial_square += we * e;
-      old_trial += we * e_old;
-      old_square += weight[b] * e_old * e_old;
-      add_outer(on_bond, we, dx);
-      add_outer(on_residual, we, e);
+      store_bonds(stored_residual + b, e);
+      sums.add(load_floats(weight + b), e, e_old, dx);
     }
-    const auto sum = [](const Vec v) { return v[0] + v[1] + v[2]; };
-    const double k_N = stiffness[i];
-    batch.trial_square[k] = k_N * sum(trial_square);
-    batch.old_trial[k] = k_N * sum(old_trial);
-    batch.old_square[k] = k_N * sum(old_square);
-    batch.residual_on_bond[k] = on_bond;
-    batch.residual_on_residual[k] = on_residual;
+    keep(sums, stiffness[i], k);
     work.extra_square[k] = modulus * batch.trial_square[k] / volume[i];
   }
 }
@@ -181,7 +243,7 @@ void BondResidual::begin_kernel_update(const SpgParts &body)
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      residual[b] = store(factor[i] * load(residual[b]));
+      residual[b] = store_bond(factor[i] * load(residual[b]));
     factor[i] = 1.;
   }
 }
@@ -217,12 +279,13 @@ void BondResidual::end_kernel_update(const SpgParts &body,
                 X[bonds.neighbor[b]] - Xi);
     A = transpose(A * functions.moment_inverse[i]);
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      residual[b] = store(load(residual[b]) -
-                          multiply_columns(A, X[bonds.neighbor[b]] - Xi));
+      residual[b] =
+          store_bond(load(residual[b]) -
+                     multiply_columns(A, X[bonds.neighbor[b]] - Xi));
     // Residuals that grew while they had no stiffness hold no energy.
     if (was_lost[i] && !functions.lost_direction[i])
       std::fill(residual.begin() + bonds.begin(i),
-                residual.begin() + bonds.end(i), store(Vec{}));
+                residual.begin() + bonds.end(i), BondVec{});
   }
 }
 

@@ -65,6 +65,14 @@ public:
                         AlignedVector<Vec> &force) override;
   void visit_bonds(StateVisitor &visitor, const SpgParts &body) override;
   void visit_state(StateVisitor &visitor) override;
+  void list_memory(MemoryTable &table) const override
+  {
+    Stabilization::list_memory(table);
+    table.add("bonds: second gradients", bond_gradient);
+    table.add("second gradients", higher_gradient);
+    table.add("second gradients: stress", stress);
+    table.add("second gradients: generalized stress", generalized_stress);
+  }
 
   // Of the step, see spg_step.h
   static constexpr bool has_bond_forces = false;

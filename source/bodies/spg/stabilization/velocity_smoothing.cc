@@ -51,7 +51,7 @@ LinearFunction find_function(const SpgParts &body, const std::size_t j,
     const Vec dx =
         per_spacing * (nodes.position[bonds.neighbor[b]] - nodes.position[j]);
     const Eigen::Vector4d p(1., dx[0], dx[1], dx[2]);
-    M += bonds.weight[b] * p * p.transpose();
+    M += double(bonds.weight[b]) * p * p.transpose();
     is_free = is_free && !nodes.is_follower(bonds.neighbor[b]);
   }
   const Eigen::LDLT<Eigen::Matrix4d> factors(M);

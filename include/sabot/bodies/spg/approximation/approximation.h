@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_approximation_approximation_h
 #define sabot_bodies_spg_approximation_approximation_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/spg/spg_options.h"
@@ -78,6 +79,16 @@ public:
   /** Stored gradients; those of ghosts' bonds are exchanged when restoring. */
   void visit_bonds(StateVisitor &visitor, const BondList &bonds);
   void visit_state(StateVisitor &visitor);
+  void list_memory(MemoryTable &table) const
+  {
+    table.add("inverse moments", moment_inverse);
+    table.add("lost directions", lost_direction);
+    table.add("spreads", spread);
+    table.add("intact spreads", intact_spread);
+    table.add("intact eigenvalues", intact_eigenvalue);
+    table.add("bonds: gradients", shape_gradient);
+    table.add("bonds: values for masses", shape_value);
+  }
 
   // Owned particles
   AlignedVector<Mat> moment_inverse; // M^-1, lost directions damped [1/m^2]

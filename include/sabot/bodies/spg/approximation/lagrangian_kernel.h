@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_approximation_lagrangian_kernel_h
 #define sabot_bodies_spg_approximation_lagrangian_kernel_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/geometry/particle_cloud.h"
@@ -75,6 +76,10 @@ public:
       not follow the motion. */
   double local_spacing(const std::size_t i) const;
   double mean_spacing() const { return mean; }
+  void list_memory(MemoryTable &table) const
+  {
+    table.add("kernels of the start", initial);
+  }
   const std::array<double, 3> &axis_spacing() const { return spacing; }
   double support() const { return normalized_support; } // radius over spacing
 

@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_failure_bond_failure_h
 #define sabot_bodies_spg_failure_bond_failure_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/spg/failure/failure_criterion.h"
@@ -124,6 +125,18 @@ public:
   std::vector<double> friction_work;
 
   void visit_state(StateVisitor &visitor);
+  void list_memory(MemoryTable &table) const
+  {
+    table.add_rows("failure: failed pairs", failed_pairs);
+    table.add("failure: failed bonds", n_failed);
+    table.add("failure: energy let go", loss);
+    table.add("failure: failed particles", is_failed);
+    table.add("failure: heat of friction", friction_work);
+    table.add("failure: measure", measure);
+    table.add("failure: marked bonds", is_marked);
+    table.add("failure: crumbling", crumbles);
+    table.add("failure: crumbled", crumbled);
+  }
 
 private:
   const std::shared_ptr<const FailureCriterion> criterion;

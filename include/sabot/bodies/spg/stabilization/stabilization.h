@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_stabilization_stabilization_h
 #define sabot_bodies_spg_stabilization_stabilization_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 #include "sabot/kernels/vec.h"
@@ -103,6 +104,12 @@ public:
   /** What belongs to bonds; ghosts' bonds come anew. Collective. */
   virtual void visit_bonds(StateVisitor &, const SpgParts &) {}
   virtual void visit_state(StateVisitor &visitor);
+  /** Arrays kept from step to step; forms that have some of their own call the
+      base. Local. */
+  virtual void list_memory(MemoryTable &table) const
+  {
+    table.add("stabilization: work", done);
+  }
 
 protected:
   std::vector<double> done; // [J] per owned particle

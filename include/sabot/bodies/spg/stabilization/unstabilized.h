@@ -27,7 +27,7 @@ public:
       no ghosts' bonds to exchange. trial: 3 tau^2 [Pa^2] for places of a
       batch. add_stress(i, place, J V, work, V sigma): adds to V sigma [J],
       returns what goes into the fourth lane. bond_forces: functor (bond,
-      reverse, own lane, neighbor's lane) -> N, here none. add_forces: after
+      reverse, neighbor's lane) -> N, here none. add_forces: after
       the gathering, on top of it. */
   static constexpr bool has_bond_forces = false;
   void trial(const ParticleRange &, const SpgParts &) {}

@@ -1,0 +1,17 @@
+#ifndef sabot_bodies_memory_lists_h
+#define sabot_bodies_memory_lists_h
+
+#include "sabot/base/memory_table.h"
+
+namespace sabot
+{
+class MaterialPoints;
+struct NodalState;
+
+/** The arrays of a body's nodes and of its material points, for tables of
+    memory. */
+void list_memory(const NodalState &nodes, MemoryTable &table);
+void list_memory(const MaterialPoints &points, MemoryTable &table);
+} // namespace sabot
+
+#endif
