@@ -10,13 +10,14 @@
 namespace sabot
 {
 /** A full batch of points for an update by @p law, of sheared and slightly
-    compressed metal: each update shears on by 5e-4 and more, in 1e-8 s. */
+    compressed metal: each update shears on by @p amount and a little more, in
+    1e-8 s. */
 class LawBatch
 {
 public:
   static constexpr std::size_t n = max_batch_points;
 
-  explicit LawBatch(const Material &law)
+  explicit LawBatch(const Material &law, const double amount = 5e-4)
   {
     for (const StateVariable &v : law.state_variables())
       for (int c = 0; c < (v.is_tensor ? 6 : 1); ++c)
@@ -45,7 +46,7 @@ public:
     for (std::size_t k = 0; k < n; ++k)
     {
       jacobian[k] = 0.99 + 1e-4 * k;
-      strain[3][k] = 5e-4 + 1e-6 * k;
+      strain[3][k] = amount * (1. + 2e-3 * k);
       F[0][k] = F[4][k] = F[8][k] = std::cbrt(jacobian[k]);
     }
   }

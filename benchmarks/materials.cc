@@ -1,4 +1,4 @@
-// Cost of one update of each law per point, plastic flow throughout:
+// Cost of one update of each law per point, in plastic flow and below yield:
 // build/release/benchmark_materials
 #include "benchmarks/law_batch.h"
 #include "sabot/materials/laws.h"
@@ -14,14 +14,16 @@ namespace
 using namespace sabot;
 using Make = std::function<std::unique_ptr<Material>(const ElasticBase::Eos &)>;
 
-void run(benchmark::State &bench, const Make &make, const bool gruneisen)
+/** @p amount of shear strain per step. */
+void run(benchmark::State &bench, const Make &make, const bool gruneisen,
+         const double amount)
 {
   ElasticBase::Eos eos;
   if (gruneisen)
     eos = std::make_shared<MieGruneisen>(
         mie_gruneisen_parameters("al6061-t6-eos"));
   const auto law = make(eos);
-  LawBatch points(*law);
+  LawBatch points(*law, amount);
   // Start again now and then, so that strain and temperature stay in range.
   int step = 0;
   for (auto _ : bench)
@@ -117,10 +119,13 @@ int main(int argc, char **argv)
        heated<ZerilliArmstrongBcc>(ZerilliArmstrongFlow<true>{zerilli()})}};
   for (const auto &law : laws)
     for (const bool gruneisen : {false, true})
-      benchmark::RegisterBenchmark(
-          (law.first + (gruneisen ? " + Mie-Gruneisen" : "")).c_str(),
-          [law, gruneisen](benchmark::State &state)
-          { run(state, law.second, gruneisen); });
+      for (const double amount : {5e-4, 1e-12})
+        benchmark::RegisterBenchmark(
+            (law.first + (gruneisen ? " + Mie-Gruneisen" : "") +
+             (amount < 1e-9 ? ", below yield" : ""))
+                .c_str(),
+            [law, gruneisen, amount](benchmark::State &state)
+            { run(state, law.second, gruneisen, amount); });
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

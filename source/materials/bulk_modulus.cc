@@ -2,21 +2,20 @@
 #include "sabot/materials/bulk_modulus.h"
 
 #include "sabot/base/registry.h"
+#include "sabot/kernels/pack_math.h"
 #include "sabot/materials/elastic_base.h"
-
-#include <cmath>
 
 namespace sabot
 {
 void BulkModulus::finish(const MaterialBatch &b, const Start &,
                          const double) const
 {
-  for (std::size_t k = 0; k < b.n; ++k)
-  {
-    const double mean = K * std::log(b.jacobian[k]);
-    for (int c = 0; c < 3; ++c)
-      b.stress[c][k] += mean;
-  }
+  double mean[max_batch_points];
+  by_packs(b.n, b.jacobian, mean,
+           [this](const WidePack J) { return K * pack_log(J); });
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t k = 0; k < b.n; ++k)
+      b.stress[c][k] += mean[k];
 }
 
 namespace

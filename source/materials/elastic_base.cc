@@ -93,6 +93,7 @@ void ElasticBase::trial_deviator(const MaterialBatch &b) const
   const double two_G = 2. * G;
   double *const *const s = b.stress;
   const double *const *const e = b.strain_increment;
+#pragma GCC ivdep // arrays do not overlap
   for (std::size_t k = 0; k < b.n; ++k)
   {
     const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.;

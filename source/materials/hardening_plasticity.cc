@@ -2,10 +2,16 @@
 #include "sabot/base/registry.h"
 #include "sabot/materials/laws.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sabot
 {
+namespace
+{
+constexpr double smallest_stress = 1e-300; // so that nothing divides by zero
+} // namespace
+
 HardeningPlasticity::HardeningPlasticity(const ElasticConstants &elastic,
                                          const HardeningParameters &p,
                                          const Eos &eos)
@@ -30,60 +36,100 @@ std::vector<StateVariable> HardeningPlasticity::law_variables() const
   return variables;
 }
 
-void HardeningPlasticity::update_deviator(const MaterialBatch &b,
-                                          Scratch &) const
+std::size_t HardeningPlasticity::piece_at(const double eps) const
 {
-  trial_deviator(b);
-  const bool kinematic = isotropic_fraction < 1.;
+  std::size_t i = 0;
+  while (i + 1 < pieces.size() && eps >= pieces[i + 1].strain)
+    ++i;
+  return i;
+}
+
+double HardeningPlasticity::increment(const double q, const double eps,
+                                      double &hardening) const
+{
   const double initial = pieces[0].stress;
+  std::size_t i = piece_at(eps);
+  const double old =
+      pieces[i].stress + pieces[i].slope * (eps - pieces[i].strain);
+  hardening = 0.;
+  // q = 3 G d + Y(eps + d) - (1 - beta)(Y(eps) - Y(0)).
+  const double target = q + (1. - isotropic_fraction) * (old - initial);
+  if (!(target > old))
+    return 0.;
+  // The first piece whose end needs more than the target holds the root.
+  while (i + 1 < pieces.size() &&
+         3. * G * (pieces[i + 1].strain - eps) + pieces[i + 1].stress < target)
+    ++i;
+  const Piece &piece = pieces[i];
+  const double d =
+      (target - piece.stress - piece.slope * (eps - piece.strain)) /
+      (3. * G + piece.slope);
+  hardening = piece.stress + piece.slope * (eps + d - piece.strain) - old;
+  return d;
+}
+
+template <bool kinematic>
+void HardeningPlasticity::return_deviator(const MaterialBatch &b) const
+{
   double *const eps = b.state(0);
+  double q[max_batch_points], d[max_batch_points], moving[max_batch_points];
+#pragma GCC ivdep // arrays do not overlap
   for (std::size_t k = 0; k < b.n; ++k)
   {
     double xi[6]; // deviator relative to the back stress
     for (int c = 0; c < 6; ++c)
       xi[c] = b.stress[c][k] - (kinematic ? b.state(1 + c)[k] : 0.);
-    const double q =
+    q[k] =
         std::sqrt(1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
                          2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
                   b.extra_square[k]);
-    std::size_t i = 0;
-    while (i + 1 < pieces.size() && eps[k] >= pieces[i + 1].strain)
-      ++i;
-    const double old =
-        pieces[i].stress + pieces[i].slope * (eps[k] - pieces[i].strain);
-    // q = 3 G d + Y(eps + d) - (1 - beta)(Y(eps) - Y(0)).
-    const double target = q + (1. - isotropic_fraction) * (old - initial);
-    double increment = 0., hardening = 0.;
-    if (target > old)
+    d[k] = moving[k] = 0.;
+    b.return_factor[k] = 1.;
+    b.plastic_work[k] = 0.;
+  }
+  bool any = false;
+  const double initial = pieces[0].stress;
+  for (std::size_t k = 0; k < b.n; ++k)
+    // No yield stress is below the initial one but by a back stress, for which
+    // q is that about it.
+    if (q[k] > initial)
     {
-      // The first piece whose end needs more than the target holds the root.
-      while (i + 1 < pieces.size() &&
-             3. * G * (pieces[i + 1].strain - eps[k]) + pieces[i + 1].stress <
-                 target)
-        ++i;
-      const Piece &piece = pieces[i];
-      increment =
-          (target - piece.stress - piece.slope * (eps[k] - piece.strain)) /
-          (3. * G + piece.slope);
-      hardening = piece.stress +
-                  piece.slope * (eps[k] + increment - piece.strain) - old;
+      double hardening;
+      d[k] = increment(q[k], eps[k], hardening);
+      moving[k] = d[k] > 0. ? (1. - isotropic_fraction) * hardening / q[k] : 0.;
+      any |= d[k] > 0.;
     }
-    const double scale = increment > 0. ? 1.5 * increment / q : 0.;
-    const double moving =
-        increment > 0. ? (1. - isotropic_fraction) * hardening / q : 0.;
+  if (!any)
+    return;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < b.n; ++k)
+  {
+    const double scale = 1.5 * d[k] / std::max(q[k], smallest_stress);
     // Plastic work with the stress at the end of the step.
     double work = 0.;
     for (int c = 0; c < 6; ++c)
     {
-      b.stress[c][k] -= 2. * G * scale * xi[c];
+      const double xi = b.stress[c][k] - (kinematic ? b.state(1 + c)[k] : 0.),
+                   s = b.stress[c][k] - 2. * G * scale * xi;
+      b.stress[c][k] = s;
       if (kinematic)
-        b.state(1 + c)[k] += moving * xi[c];
-      work += (c < 3 ? 1. : 2.) * b.stress[c][k] * scale * xi[c];
+        b.state(1 + c)[k] += moving[k] * xi;
+      work += (c < 3 ? 1. : 2.) * s * scale * xi;
     }
-    eps[k] += increment;
+    eps[k] += d[k];
     b.plastic_work[k] = work;
-    b.return_factor[k] = increment > 0. ? 1. - 3. * G * increment / q : 1.;
+    b.return_factor[k] = 1. - 2. * G * scale;
   }
+}
+
+void HardeningPlasticity::update_deviator(const MaterialBatch &b,
+                                          Scratch &) const
+{
+  trial_deviator(b);
+  if (isotropic_fraction < 1.)
+    return_deviator<true>(b);
+  else
+    return_deviator<false>(b);
 }
 
 namespace

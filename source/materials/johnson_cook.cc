@@ -25,18 +25,6 @@ std::vector<StateVariable> JohnsonCook::law_variables() const
   return variables;
 }
 
-double JohnsonCook::fracture_strain(const double triaxiality, const double rate,
-                                    const double temperature) const
-{
-  const double *const D = flow.p.D;
-  const double relative = std::max(1., rate / flow.p.reference_strain_rate);
-  const double strain =
-      (D[0] + D[1] * std::exp(D[2] * std::clamp(triaxiality, -10., 1.5))) *
-      (1. + D[3] * std::log(relative)) *
-      (1. + D[4] * flow.homologous(temperature));
-  return std::max(strain, flow.p.smallest_fracture_strain);
-}
-
 std::optional<double>
 JohnsonCook::slow_fracture_strain(const double triaxiality) const
 {
@@ -62,20 +50,35 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     return;
   const double *const eps = b.state(0), *const temperature = b.state(1);
   double *const damage = b.state(2);
+  std::size_t flowing[max_batch_points + 1], n = 0;
+  double d[max_batch_points + 1], triaxiality[max_batch_points];
   for (std::size_t k = 0; k < b.n; ++k)
   {
-    const double d = eps[k] - old_strain[k];
-    if (d <= 0.)
-      continue;
+    flowing[n] = k;
+    d[n] = eps[k] - old_strain[k];
+    n += d[n] > 0.;
+  }
+  double rate[max_batch_points], T[max_batch_points];
+  // Melted points have no von Mises stress; the clamp takes the ratio.
+  const double smallest = 1e-12 * shear_modulus();
+  for (std::size_t i = 0; i < n; ++i)
+  {
     double s[6];
     for (int c = 0; c < 6; ++c)
-      s[c] = b.stress[c][k];
-    // Melted points have no von Mises stress; the clamp takes the ratio.
-    const double mean = (s[0] + s[1] + s[2]) / 3.,
-                 smallest = 1e-12 * shear_modulus();
-    const double triaxiality = mean / std::max(von_mises(s), smallest);
-    damage[k] += d / fracture_strain(triaxiality, d / b.dt, temperature[k]);
+      s[c] = b.stress[c][flowing[i]];
+    triaxiality[i] =
+        (s[0] + s[1] + s[2]) / 3. / std::max(von_mises(s), smallest);
+    rate[i] = d[i] / b.dt;
+    T[i] = temperature[flowing[i]];
   }
+  for (std::size_t i = 0; i < n; i += n_wide)
+    store_some(&T[i],
+               flow.fracture_strain(load_some(&triaxiality[i], n - i),
+                                    load_some(&rate[i], n - i),
+                                    load_some(&T[i], n - i)),
+               n - i);
+  for (std::size_t i = 0; i < n; ++i)
+    damage[flowing[i]] += d[i] / T[i];
 }
 
 namespace

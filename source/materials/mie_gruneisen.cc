@@ -3,6 +3,7 @@
 
 #include "sabot/base/output_fields.h"
 #include "sabot/base/registry.h"
+#include "sabot/kernels/pack_math.h"
 #include "sabot/materials/elastic_base.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ void MieGruneisen::begin(const MaterialBatch &b, Start &start) const
 {
   const double *const *const e = b.strain_increment;
   double *const *const s = b.stress;
+#pragma GCC ivdep // arrays do not overlap
   for (std::size_t k = 0; k < b.n; ++k)
   {
     const double mean = (s[0][k] + s[1][k] + s[2][k]) / 3.;
@@ -27,56 +29,81 @@ void MieGruneisen::begin(const MaterialBatch &b, Start &start) const
   }
 }
 
+namespace
+{
+/** What a pack of points needs from the start of the step and has of it. */
+struct PointsOfPack
+{
+  WidePack J, change, work; // change of J, work [J per m^3 of V_0]
+};
+
+/** From the batch, s the new deviator and p the old pressure:
+    work = J_mid (s_old + s) : d_eps/2 - (p/2 + q) change. */
+PointsOfPack points_of(const MaterialBatch &b,
+                       const EquationOfState::Start &start, const std::size_t k)
+{
+  const std::size_t n = b.n - k;
+  WidePack s[n_symmetric], d[n_symmetric];
+  for (int c = 0; c < n_symmetric; ++c)
+  {
+    s[c] = load_some(&b.stress[c][k], n);
+    d[c] = load_some(&b.strain_increment[c][k], n);
+  }
+  PointsOfPack points;
+  points.J = load_some(&b.jacobian[k], n);
+  const WidePack trace = d[0] + d[1] + d[2];
+  const WidePack mid = points.J / (1. + 0.5 * trace); // at mid step over V_0
+  points.change = mid * trace;
+  const WidePack viscous =
+      b.viscous_pressure ? load_some(&b.viscous_pressure[k], n) : WidePack{};
+  points.work =
+      mid * (load_some(&start.deviatoric_work[k], n) +
+             0.5 * (s[0] * d[0] + s[1] * d[1] + s[2] * d[2]) + s[3] * d[3] +
+             s[4] * d[4] + s[5] * d[5]) -
+      (0.5 * load_some(&start.pressure[k], n) + viscous) * points.change;
+  return points;
+}
+} // namespace
+
 void MieGruneisen::finish(const MaterialBatch &b, const Start &start,
                           const double shear_modulus) const
 {
-  const double *const *const d = b.strain_increment;
-  double *const *const s = b.stress;
   double *const energy = b.state(0);
-  const double K = bulk_modulus(), rest = K + 4. / 3. * shear_modulus;
-  const double largest = 0.9 / std::max(1., p.shock_slope);
-  for (std::size_t k = 0; k < b.n; ++k)
+  const double K = bulk_modulus(), shear = 4. / 3. * shear_modulus;
+  const WidePack zero = {}, one = splat<WidePack>(1.),
+                 largest = splat<WidePack>(0.9 / std::max(1., p.shock_slope));
+  for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    const double J = b.jacobian[k];
+    const std::size_t n = b.n - k;
+    const PointsOfPack points = points_of(b, start, k);
+    const WidePack J = points.J, change = points.change;
     // eta, or its bound, where the curve goes on along its tangent.
-    const double eta = std::min(1. - J, largest), beyond = 1. - J - eta;
-    const double mu = eta / (1. - eta);
-    const double g = p.gruneisen + p.volume_correction * mu;
-    const double D = 1. - p.shock_slope * std::max(eta, 0.);
-    const double tangent = K * (1. + p.shock_slope * eta) / (D * D * D);
-    const double hugoniot = K * eta / (D * D) + tangent * beyond;
-    const double cold = eta > 0. ? hugoniot * (1. - 0.5 * g * eta) : K * mu;
-
-    const double trace = d[0][k] + d[1][k] + d[2][k];
-    const double mid = J / (1. + 0.5 * trace); // volume at mid step over V_0
-    const double change = mid * trace;
-    const double viscous = b.viscous_pressure ? b.viscous_pressure[k] : 0.;
-    const double work =
-        mid *
-            (start.deviatoric_work[k] +
-             0.5 * (s[0][k] * d[0][k] + s[1][k] * d[1][k] + s[2][k] * d[2][k]) +
-             s[3][k] * d[3][k] + s[4][k] * d[4][k] + s[5][k] * d[5][k]) -
-        (0.5 * start.pressure[k] + viscous) * change; // [J per m^3 of V_0]
-    const double e = p.density * energy[k] + work;
-    const double pressure =
-        (cold + g * e) / std::max(1. + 0.5 * g * change, 0.1);
-    energy[k] = (e - 0.5 * pressure * change) / p.density;
+    const WidePack eta = pack_min(1. - J, largest), beyond = 1. - J - eta;
+    const WidePack mu = eta / (1. - eta);
+    const WidePack g = p.gruneisen + p.volume_correction * mu;
+    const WidePack D = 1. / (1. - p.shock_slope * pack_max(eta, zero));
+    const WidePack tangent = K * (1. + p.shock_slope * eta) * (D * D * D);
+    const WidePack hugoniot = K * eta * (D * D) + tangent * beyond;
+    const WidePack cold = eta > zero ? hugoniot * (1. - 0.5 * g * eta) : K * mu;
+    const WidePack e = p.density * load_some(&energy[k], n) + points.work;
+    const WidePack pressure =
+        (cold + g * e) / pack_max(1. + 0.5 * g * change, splat<WidePack>(0.1));
+    const WidePack e_new = e - 0.5 * pressure * change;
+    store_some(&energy[k], e_new * (1. / p.density), n);
     for (int c = 0; c < 3; ++c)
-      s[c][k] -= pressure;
+      store_some(&b.stress[c][k], load_some(&b.stress[c][k], n) - pressure, n);
 
-    if (b.stiffening)
-    {
-      // Isentropic modulus J (dp/d eta at constant e + g p).
-      const double inside = beyond > 0. ? 0. : 1.;
-      const double g_slope = inside * p.volume_correction / (J * J);
-      const double slope =
-          eta > 0. ? tangent * (1. - 0.5 * g * eta) -
+    if (!b.stiffening)
+      continue;
+    // Isentropic modulus J (dp/d eta at constant e + g p).
+    const WidePack inside = beyond > zero ? zero : one, square = 1. / (J * J),
+                   g_slope = inside * p.volume_correction * square;
+    const WidePack slope =
+        eta > zero ? tangent * (1. - 0.5 * g * eta) -
                          0.5 * inside * hugoniot * (g + g_slope * eta)
-                   : K / (J * J);
-      const double modulus =
-          J * (slope + g_slope * p.density * energy[k] + g * pressure);
-      b.stiffening[k] = (modulus + 4. / 3. * shear_modulus) / rest;
-    }
+                   : K * square;
+    const WidePack modulus = J * (slope + g_slope * e_new + g * pressure);
+    store_some(&b.stiffening[k], (modulus + shear) * (1. / (K + shear)), n);
   }
 }
 

@@ -1,5 +1,6 @@
 // The neo-Hookean law.
 #include "sabot/base/registry.h"
+#include "sabot/kernels/pack_math.h"
 #include "sabot/materials/laws.h"
 
 #include <algorithm>
@@ -24,14 +25,17 @@ inline void left_cauchy_green(const double *const *F, const std::size_t k,
 void NeoHookean::update_deviator(const MaterialBatch &batch,
                                  Scratch &shear_ratio) const
 {
+  double factors[max_batch_points]; // J^(-5/3)
+  by_packs(batch.n, batch.jacobian, factors,
+           [](const WidePack J) { return pack_power(J, -5. / 3.); });
+#pragma GCC ivdep // arrays do not overlap
   for (std::size_t k = 0; k < batch.n; ++k)
   {
     double b[6];
     left_cauchy_green(batch.deformation_gradient, k, b);
-    const double J = batch.jacobian[k], r = 1. / std::cbrt(J);
-    const double factor = r * r / J, mean = (b[0] + b[1] + b[2]) / 3.;
+    const double factor = factors[k], mean = (b[0] + b[1] + b[2]) / 3.;
     for (int c = 0; c < 6; ++c)
-      batch.stress[c][k] = G * factor * (b[c] - (c < 3 ? mean : 0.));
+      batch.stress[c][k] = G * factor * (c < 3 ? b[c] - mean : b[c]);
     batch.return_factor[k] = 1.;
     batch.plastic_work[k] = 0.;
     // The shear stiffness grows with the largest eigenvalue of b, which the

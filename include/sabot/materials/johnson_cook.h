@@ -59,9 +59,10 @@ struct JohnsonCookParameters
 struct JohnsonCookFlow
 {
   static constexpr bool constant_shear_modulus = true;
+  template <typename Number>
   struct Point
   {
-    double thermal; // 1 - T*^m, fixed during the return
+    Number thermal; // 1 - T*^m, fixed during the return
   };
   JohnsonCookParameters p;
 
@@ -69,7 +70,8 @@ struct JohnsonCookFlow
    * T [K] only: neither pressure nor volume has a part in this law. T* is of
    * the start of the step, an error of first order in dt in the softening.
    */
-  Point at(const double temperature, const double, const double) const
+  template <typename Number>
+  Point<Number> at(const Number temperature, const Number, const Number) const
   {
     return {thermal_factor(temperature)};
   }
@@ -77,7 +79,20 @@ struct JohnsonCookFlow
    * A (1 - T*^m): hardening and rate only add to it, as B and C are not
    * negative.
    */
-  double lower_bound(const Point &point) const { return point.thermal * p.A; }
+  template <typename Number>
+  Number lower_bound(const Point<Number> &point) const
+  {
+    return point.thermal * p.A;
+  }
+  /**
+   * A min(m, 1) (1 - T*): the chord of a convex T*^m, the tangent at melt of a
+   * concave one. The last factor is for the rounding of T*^m.
+   */
+  double smallest_stress(const double temperature) const
+  {
+    const double T = homologous(temperature);
+    return (1. - 1e-9) * p.A * (T > 0. ? std::min(p.m, 1.) * (1. - T) : 1.);
+  }
   /**
    * sigma_y [Pa] at strain @p eps and @p rate [1/s]; strains below 1e-14 count
    * as that, where the slope of the power law has no bound.
@@ -86,39 +101,72 @@ struct JohnsonCookFlow
    * above the reference rate, without the second term below, where f = 1: the
    * kink of the rate's effect is one of the slope only.
    */
-  double stress(const Point &point, const double eps, const double rate,
-                const double dt, double &slope) const
+  template <typename Number>
+  Number stress(const Point<Number> &point, const Number eps, const Number rate,
+                const double dt, Number &slope) const
   {
-    const double safe = std::max(eps, 1e-14);
-    const double hardening = p.B * std::pow(safe, p.n);
-    const double relative = rate / p.reference_strain_rate;
-    const double fast = relative > 1. ? 1. + p.C * std::log(relative) : 1.;
-    const double fast_slope = relative > 1. ? p.C / (rate * dt) : 0.;
-    slope = point.thermal *
-            (p.n * hardening / safe * fast + (p.A + hardening) * fast_slope);
+    const Number safe = pack_max(eps, splat<Number>(1e-14)),
+                 hardening = p.B * pack_power(safe, p.n);
+    const Number relative =
+        pack_max(rate * (1. / p.reference_strain_rate), splat<Number>(1.));
+    const auto is_fast = relative > splat<Number>(1.);
+    const Number fast =
+        any_of(is_fast) ? 1. + p.C * pack_log(relative) : splat<Number>(1.);
+    // One division for both: by eps and, above the reference rate, by d.
+    const Number d = relative * (p.reference_strain_rate * dt),
+                 inverse = 1. / (safe * d);
+    slope = point.thermal * inverse *
+            (p.n * hardening * fast * d +
+             (is_fast ? (p.A + hardening) * p.C * safe : Number{}));
     return point.thermal * (p.A + hardening) * fast;
   }
   /** G does not follow pressure or temperature in this law. */
-  double shear_factor(const Point &) const { return 1.; }
+  template <typename Number>
+  Number shear_factor(const Point<Number> &) const
+  {
+    return splat<Number>(1.);
+  }
 
   /**
    * T* of @p temperature [K], within [0, 1].
    * (T - T_room)/(T_melt - T_room), the papers' T*.
    */
-  double homologous(const double temperature) const
+  template <typename Number>
+  Number homologous(const Number temperature) const
   {
-    return std::min(
-        1., std::max(0., (temperature - p.room_temperature) /
-                             (p.melt_temperature - p.room_temperature)));
+    const Number T = (temperature - p.room_temperature) *
+                     (1. / (p.melt_temperature - p.room_temperature));
+    return pack_min(splat<Number>(1.), pack_max(Number{}, T));
   }
   /**
-   * 1 - T*^m of @p temperature [K], without a power where it is 0 or 1.
-   * 1 at room temperature and below, 0 from melt on.
+   * 1 - T*^m of @p temperature [K].
+   * 1 at room temperature and below, 0 from melt on, exactly.
    */
-  double thermal_factor(const double temperature) const
+  template <typename Number>
+  Number thermal_factor(const Number temperature) const
   {
-    const double T = homologous(temperature);
-    return T <= 0. ? 1. : T >= 1. ? 0. : 1. - std::pow(T, p.m);
+    const Number T = homologous(temperature);
+    if (!any_of(T > Number{}))
+      return splat<Number>(1.);
+    // 1 - 1^m is 0, as the logarithm of 1 is 0.
+    return T > Number{} ? 1. - pack_power(T, p.m) : splat<Number>(1.);
+  }
+  /**
+   * Fracture strain of Johnson & Cook 1985 at triaxiality sigma*, @p rate [1/s]
+   * and @p temperature [K], see JohnsonCook::fracture_strain().
+   */
+  template <typename Number>
+  Number fracture_strain(const Number triaxiality, const Number rate,
+                         const Number temperature) const
+  {
+    const Number relative = pack_max(splat<Number>(1.),
+                                     rate * (1. / p.reference_strain_rate)),
+                 clamped = pack_min(pack_max(triaxiality, splat<Number>(-10.)),
+                                    splat<Number>(1.5));
+    return pack_max((p.D[0] + p.D[1] * pack_exp(p.D[2] * clamped)) *
+                        (1. + p.D[3] * pack_log(relative)) *
+                        (1. + p.D[4] * homologous(temperature)),
+                    splat<Number>(p.smallest_fracture_strain));
   }
 };
 
@@ -149,7 +197,8 @@ public:
                      const double thermal_factor, const double dt,
                      double &slope) const
   {
-    return flow.stress({thermal_factor}, eps, rate, dt, slope);
+    return flow.stress(JohnsonCookFlow::Point<double>{thermal_factor}, eps,
+                       rate, dt, slope);
   }
   /** 1 - T*^m of @p temperature [K]. */
   double thermal_factor(const double temperature) const
@@ -164,7 +213,10 @@ public:
    * reaches 1 were all three held constant (Johnson & Cook 1985).
    */
   double fracture_strain(const double triaxiality, const double rate,
-                         const double temperature) const;
+                         const double temperature) const
+  {
+    return flow.fracture_strain(triaxiality, rate, temperature);
+  }
   /** fracture_strain() at the reference rate and the initial temperature;
       nothing without damage. */
   std::optional<double>

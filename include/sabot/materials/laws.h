@@ -83,6 +83,15 @@ private:
   {
     double strain, stress, slope; // at the start of the piece
   };
+  /** The piece that holds @p eps. */
+  std::size_t piece_at(const double eps) const;
+  /** d for the trial @p q [Pa] at strain @p eps, 0 below yield, and what Y
+     grows by [Pa]. */
+  double increment(const double q, const double eps, double &hardening) const;
+  /** The return of a trial deviator, with or without a back stress. */
+  template <bool kinematic>
+  void return_deviator(const MaterialBatch &batch) const;
+
   std::vector<Piece> pieces; // at least one, by strain
   const double isotropic_fraction;
 };

@@ -2,6 +2,7 @@
 #define sabot_materials_rate_dependent_h
 
 #include "sabot/materials/elastic_base.h"
+#include "sabot/materials/flow_return.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,83 @@ struct ThermalParameters
 };
 
 /**
+ * A Flow that is written for double alone, point by point: for laws in which
+ * packs are not worth their pains. @p Scalar has at(), lower_bound(), stress()
+ * and shear_factor() of doubles and a plain struct Point.
+ */
+template <typename Scalar>
+struct OneByOne
+{
+  static constexpr bool constant_shear_modulus = Scalar::constant_shear_modulus;
+  template <typename Number>
+  struct Point
+  {
+    typename Scalar::Point lane[sizeof(Number) / sizeof(double)];
+  };
+  Scalar flow;
+
+  template <typename Number>
+  Point<Number> at(const Number T, const Number p, const Number J) const
+  {
+    Point<Number> point;
+    for_lanes<Number>(
+        [&](const std::size_t i)
+        { point.lane[i] = flow.at(of(T, i), of(p, i), of(J, i)); });
+    return point;
+  }
+  template <typename Number>
+  Number lower_bound(const Point<Number> &point) const
+  {
+    Number bound;
+    for_lanes<Number>([&](const std::size_t i)
+                      { set(bound, i, flow.lower_bound(point.lane[i])); });
+    return bound;
+  }
+  double smallest_stress(const double) const { return 0.; }
+  template <typename Number>
+  Number stress(const Point<Number> &point, const Number eps, const Number rate,
+                const double dt, Number &slope) const
+  {
+    Number stress;
+    for_lanes<Number>(
+        [&](const std::size_t i)
+        {
+          double s;
+          set(stress, i,
+              flow.stress(point.lane[i], of(eps, i), of(rate, i), dt, s));
+          set(slope, i, s);
+        });
+    return stress;
+  }
+  template <typename Number>
+  Number shear_factor(const Point<Number> &point) const
+  {
+    Number factor;
+    for_lanes<Number>([&](const std::size_t i)
+                      { set(factor, i, flow.shear_factor(point.lane[i])); });
+    return factor;
+  }
+
+private:
+  template <typename Number, typename Function>
+  static void for_lanes(const Function &function)
+  {
+    for (std::size_t i = 0; i < sizeof(Number) / sizeof(double); ++i)
+      function(i);
+  }
+  template <typename Number>
+  static double of(const Number &a, const std::size_t i)
+  {
+    return reinterpret_cast<const double *>(&a)[i];
+  }
+  template <typename Number>
+  static void set(Number &a, const std::size_t i, const double value)
+  {
+    reinterpret_cast<double *>(&a)[i] = value;
+  }
+};
+
+/**
  * J2 plasticity with a flow stress that depends on strain, rate, temperature
  * and pressure, the latter two as of the start of the step. Implicit in strain
  * and rate: with the trial q = sqrt(3/2 s:s + extra_square), the increment d of
@@ -56,26 +134,27 @@ struct ThermalParameters
  *
  *   q - 3 G d - sigma_y(eps + d, d/dt) = 0
  *
- * by safeguarded Newton on the yielding points; then s is scaled by
- * theta = 1 - 3 G d/q. States: "effective plastic strain", "temperature".
- *
- * The left side falls with d, as sigma_y does not: there is one root, between 0
- * and q/(3 G), and Newton's steps are taken while they stay within the bracket
- * that is known to hold it, else halved. Where sigma_y has a power of eps, the
- * first guess leaves the slope at eps = 0 out, which has no bound.
+ * by safeguarded Newton on the yielding points (FlowReturn); then s is scaled
+ * by theta = 1 - 3 G d/q. States: "effective plastic strain", "temperature".
  *
  * A new law of this kind is a Flow, its entries and a registration, as in
  * source/materials/zerilli_armstrong.cc. The template is instantiated there,
  * with the Flow inlined into the loop over points.
  *
- * A Flow has
- *   Point at(T, p, J)             what stays fixed during the return,
+ * A Flow has, with Number double or a pack of points (kernels/pack_math.h),
+ *   Point<Number> at(T, p, J)     what stays fixed during the return,
  *   lower_bound(Point)            a stress no yield stress is below [Pa],
  *   stress(Point, eps, rate, dt, slope&)  flow stress [Pa], never negative and
  *                                 not falling with eps at fixed dt; slope is
  *                                 its derivative with eps, the rate's included,
- *   constant_shear_modulus        whether shear_factor(Point) is 1 always,
- *   shear_factor(Point)           G over its value at rest, at least 0.
+ *   shear_factor(Point)           G over its value at rest, at least 0,
+ *   smallest_stress(T)            of a double, without powers: not above
+ *                                 lower_bound() at any pressure and volume; 0
+ *                                 where the Flow cannot say;
+ *                                 not asked of one with a modulus that moves,
+ *   constant_shear_modulus        whether shear_factor(Point) is 1 always.
+ * One that is written for double alone, with Point a plain struct and without
+ * smallest_stress(), is used as OneByOne<Flow>, at the price of scalar code.
  */
 template <typename Flow>
 class RateDependentPlasticity : public ElasticBase
@@ -144,107 +223,111 @@ protected:
   const ThermalParameters thermal;
 
 private:
-  /**
-   * The root d > 0 for a trial @p q [Pa] above @p yield, to 1e-12 of q or what
-   * follows from quadratic convergence; @p yield, @p slope: flow stress and its
-   * slope at @p eps and rate 0.
-   * At most a hundred iterations; the bracket at least halves wherever Newton's
-   * step leaves it. @p point: what at() made of T, p and J; @p shear_modulus
-   * [Pa] of the start of the step, positive; @p dt [s].
-   */
-  double increment(const typename Flow::Point &point, const double q,
-                   const double shear_modulus, const double eps,
-                   const double dt, const double yield, double slope) const;
+  /** The trial deviator of all points with the modulus of each, the square of
+      q [Pa^2] and 2/3 of that of the deviatoric strain increment; nothing has
+      yielded. */
+
+  void make_trial(const MaterialBatch &batch, const double *modulus,
+                  double *square, double *strain_square) const;
+  /** G_0 shear_factor() per point at @p pressure [Pa], and unless null a
+      stress that no yield stress is below [Pa]. */
+  void find_modulus(const MaterialBatch &batch, const double *pressure,
+                    double *modulus, double *bound) const;
 };
 
 template <typename Flow>
-double RateDependentPlasticity<Flow>::increment(
-    const typename Flow::Point &point, const double q,
-    const double shear_modulus, const double eps, const double dt,
-    const double yield, double slope) const
+void RateDependentPlasticity<Flow>::find_modulus(const MaterialBatch &b,
+                                                 const double *const pressure,
+                                                 double *const modulus,
+                                                 double *const bound) const
 {
-  // Root of q - 3 G d - sigma_y(eps + d, d/dt), decreasing in d: Newton inside
-  // a bracket that always holds the root.
-  const double three_G = 3. * shear_modulus;
-  double low = 0., high = q / three_G;
-  // Power laws have no useful slope at strain 0.
-  double d = (q - yield) / (three_G + (eps > 1e-8 ? slope : 0.));
-  for (int iteration = 0; iteration < 100; ++iteration)
+  const double *const temperature = b.state(1);
+  if (Flow::constant_shear_modulus)
   {
-    const double f =
-        q - three_G * d - flow.stress(point, eps + d, d / dt, dt, slope);
-    (f > 0. ? low : high) = d;
-    if (std::abs(f) <= 1e-12 * q || high - low <= 1e-15 * high)
-      break;
-    const double next = d + f / (three_G + slope), change = std::abs(next - d);
-    const bool trusted = next > low && next < high;
-    // Convergence is quadratic: what remains is below 1e-8 of the stress.
-    const bool done = trusted && change <= 1e-4 * d;
-    d = trusted ? next : 0.5 * (low + high);
-    if (done)
-      break;
+    std::fill_n(modulus, b.n, G);
+    for (std::size_t k = 0; bound != nullptr && k < b.n; ++k)
+      bound[k] = flow.smallest_stress(temperature[k]);
+    return;
   }
-  return d;
+  for (std::size_t k = 0; k < b.n; k += n_wide)
+  {
+    const std::size_t n = b.n - k;
+    const auto at =
+        flow.at(load_some(&temperature[k], n), load_some(&pressure[k], n),
+                load_some(&b.jacobian[k], n));
+    store_some(&modulus[k], G * flow.shear_factor(at), n);
+    if (bound != nullptr)
+      store_some(&bound[k], flow.lower_bound(at), n);
+  }
 }
 
-// One loop over the points with everything inlined: the trial deviator, the
-// yield condition, and for the few points that yield the return.
+template <typename Flow>
+void RateDependentPlasticity<Flow>::make_trial(
+    const MaterialBatch &b, const double *const modulus, double *const square,
+    double *const strain_square) const
+{
+  const double *const *const e = b.strain_increment;
+#pragma GCC ivdep // arrays do not overlap
+  for (std::size_t k = 0; k < b.n; ++k)
+  {
+    double s[6], d[6]; // deviators
+    const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.,
+                 mean = (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.,
+                 two_G = 2. * modulus[k];
+    for (int c = 0; c < 6; ++c)
+      d[c] = c < 3 ? e[c][k] - trace : e[c][k];
+    for (int c = 0; c < 6; ++c)
+      s[c] = c < 3 ? b.stress[c][k] + (two_G * d[c] - mean)
+                   : b.stress[c][k] + two_G * d[c];
+    for (int c = 0; c < 6; ++c)
+      b.stress[c][k] = s[c];
+    strain_square[k] = 2. / 3. *
+                       (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] +
+                        2. * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5]));
+    square[k] = 1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] +
+                       2. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])) +
+                b.extra_square[k];
+    b.return_factor[k] = 1.;
+    b.plastic_work[k] = 0.;
+  }
+}
+
+// Whole batches: the trial deviator, the few points that may yield, their
+// return, and the factors of all.
 template <typename Flow>
 void RateDependentPlasticity<Flow>::update_deviator(const MaterialBatch &b,
                                                     Scratch &) const
 {
-  constexpr bool constant_G = Flow::constant_shear_modulus;
   double *const eps = b.state(0), *const temperature = b.state(1);
-  const double heating =
-      thermal.taylor_quinney / (density() * thermal.specific_heat);
-  double pressure[max_batch_points];
+  double pressure[max_batch_points], modulus[max_batch_points],
+      bound[max_batch_points], square[max_batch_points],
+      strain_square[max_batch_points];
   for (std::size_t k = 0; k < b.n; ++k)
     pressure[k] = -(b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
-  if (constant_G)
-    trial_deviator(b);
+  find_modulus(b, pressure, modulus, bound);
+  make_trial(b, modulus, square, strain_square);
+
+  FlowReturn<Flow> points(flow, b.dt);
   for (std::size_t k = 0; k < b.n; ++k)
+    points.ask(k, square[k], bound[k]);
+  if (!points.find(
+          {eps, temperature, pressure, b.jacobian, modulus, strain_square}))
+    return;
+  const double heating =
+      thermal.taylor_quinney / (density() * thermal.specific_heat);
+  for (std::size_t i = 0; i < points.n; ++i)
   {
-    const typename Flow::Point point =
-        flow.at(temperature[k], pressure[k], b.jacobian[k]);
-    double modulus = G;
-    if (!constant_G)
-    {
-      modulus *= flow.shear_factor(point);
-      const double *const *const e = b.strain_increment;
-      const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.;
-      for (int c = 0; c < 3; ++c)
-        b.stress[c][k] += 2. * modulus * (e[c][k] - trace) + pressure[k];
-      for (int c = 3; c < 6; ++c)
-        b.stress[c][k] += 2. * modulus * e[c][k];
-    }
-    const double x = b.stress[0][k], y = b.stress[1][k], z = b.stress[2][k],
-                 xy = b.stress[3][k], yz = b.stress[4][k], xz = b.stress[5][k];
-    const double q = std::sqrt(
-        1.5 * (x * x + y * y + z * z + 2. * (xy * xy + yz * yz + xz * xz)) +
-        b.extra_square[k]);
-    b.return_factor[k] = 1.;
-    b.plastic_work[k] = 0.;
-    // The power laws are for points that may yield.
-    if (q <= flow.lower_bound(point))
-      continue;
-    double slope;
-    const double yield = flow.stress(point, eps[k], 0., b.dt, slope);
-    if (q <= yield)
-      continue;
-    // Without shear modulus there is nothing but to let go.
-    const double d =
-        modulus > 0. ? increment(point, q, modulus, eps[k], b.dt, yield, slope)
-                     : 0.;
-    const double theta =
-        modulus > 0. ? std::max(0., 1. - 3. * modulus * d / q) : 0.;
-    for (int c = 0; c < 6; ++c)
-      b.stress[c][k] *= theta;
-    const double work = theta * q * d;
-    eps[k] += d;
+    const std::size_t k = points.point[i];
+    const double work = points.theta[i] * points.q[i] * points.increment[i];
+    eps[k] += points.increment[i];
     temperature[k] += heating * work;
-    b.return_factor[k] = theta;
+    b.return_factor[k] = points.theta[i];
     b.plastic_work[k] = work;
   }
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < b.n; ++k)
+    for (int c = 0; c < 6; ++c)
+      b.stress[c][k] *= b.return_factor[k];
 }
 
 // Thermal expansion, and the stiffening of laws whose shear modulus moves.
@@ -264,16 +347,17 @@ void RateDependentPlasticity<Flow>::after_pressure(const MaterialBatch &b,
     }
   if (Flow::constant_shear_modulus || !b.stiffening)
     return;
+  double pressure[max_batch_points], modulus[max_batch_points];
+  for (std::size_t k = 0; k < b.n; ++k)
+    pressure[k] = -(b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
+  find_modulus(b, pressure, modulus, nullptr);
+  const bool bulk_stiffens = eos->stiffens();
   for (std::size_t k = 0; k < b.n; ++k)
   {
-    const double pressure =
-        -(b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.;
-    const double factor =
-        flow.shear_factor(flow.at(temperature[k], pressure, b.jacobian[k]));
     const double bulk =
-        eos->stiffens() ? b.stiffening[k] * rest - 4. / 3. * G : K;
+        bulk_stiffens ? b.stiffening[k] * rest - 4. / 3. * G : K;
     // One factor for both moduli: the larger.
-    b.stiffening[k] = std::max({1., bulk / K, factor});
+    b.stiffening[k] = std::max({1., bulk / K, modulus[k] / G});
   }
 }
 } // namespace sabot

@@ -57,9 +57,10 @@ struct SteinbergGuinanParameters
 struct SteinbergGuinanFlow
 {
   static constexpr bool constant_shear_modulus = false;
+  template <typename Number>
   struct Point
   {
-    double factor; // G/G_0, of shear modulus and yield stress alike
+    Number factor; // G/G_0, of shear modulus and yield stress alike
   };
   SteinbergGuinanParameters p;
 
@@ -71,52 +72,70 @@ struct SteinbergGuinanFlow
    */
   double melt_temperature(const double J) const
   {
-    return p.melt_temperature *
-           std::exp(2. * p.melt_correction * (1. - J) -
-                    2. * (p.gruneisen - p.melt_correction - 1. / 3.) *
-                        std::log(J));
+    return melt_temperature(J, std::log(J));
   }
   /**
    * @p temperature [K] and @p pressure [Pa] of the start of the step.
    *   factor = max(0, 1 + A p J^(1/3) - B (T - T_ref)), 0 at T >= T_m(J),
    * with p positive in compression; J^(1/3) is the paper's eta^(-1/3).
    */
-  Point at(const double temperature, const double pressure,
-           const double J) const
+  template <typename Number>
+  Point<Number> at(const Number temperature, const Number pressure,
+                   const Number J) const
   {
-    if (temperature >= melt_temperature(J))
-      return {0.};
-    return {std::max(0., 1. + p.pressure_coefficient * pressure * std::cbrt(J) -
-                             p.temperature_coefficient *
-                                 (temperature - p.reference_temperature))};
+    const Number log_J = pack_log(J);
+    const Number factor =
+        1. + p.pressure_coefficient * pressure * pack_exp((1. / 3.) * log_J) -
+        p.temperature_coefficient * (temperature - p.reference_temperature);
+    return {temperature < melt_temperature(J, log_J)
+                ? pack_max(factor, Number{})
+                : Number{}};
   }
   /**
    * Y grows with strain from Y_0 (1 + beta eps_i)^n, which is at least Y_0, and
    * is cut at Y_max.
    */
-  double lower_bound(const Point &point) const
+  template <typename Number>
+  Number lower_bound(const Point<Number> &point) const
   {
     return point.factor * std::min(p.yield_stress, p.largest_yield_stress);
   }
+  /** Not asked for, as the modulus moves: none without pressure and volume. */
+  double smallest_stress(const double) const { return 0.; }
   /**
    * Y [Pa]; without slope once Y_max is reached.
    * The slope is Y_0 n beta (1 + beta (eps + eps_i))^(n - 1) G/G_0; rate and
    * step have no part in it.
    */
-  double stress(const Point &point, const double eps, const double,
-                const double, double &slope) const
+  template <typename Number>
+  Number stress(const Point<Number> &point, const Number eps, const Number,
+                const double, Number &slope) const
   {
-    const double base = 1. + p.beta * (eps + p.initial_plastic_strain);
-    const double hardened = p.yield_stress * std::pow(base, p.n);
-    const bool saturated = hardened >= p.largest_yield_stress;
-    slope = saturated ? 0. : point.factor * p.n * p.beta * hardened / base;
-    return point.factor * std::min(hardened, p.largest_yield_stress);
+    const Number base = 1. + p.beta * (eps + p.initial_plastic_strain),
+                 hardened = p.yield_stress * pack_power(base, p.n),
+                 largest = splat<Number>(p.largest_yield_stress);
+    slope = hardened < largest ? point.factor * (p.n * p.beta) * hardened / base
+                               : Number{};
+    return point.factor * pack_min(hardened, largest);
   }
   /**
    * Y and G scale alike, so that the elastic strain at yield does not change
    * with pressure or temperature.
    */
-  double shear_factor(const Point &point) const { return point.factor; }
+  template <typename Number>
+  Number shear_factor(const Point<Number> &point) const
+  {
+    return point.factor;
+  }
+
+private:
+  template <typename Number>
+  Number melt_temperature(const Number J, const Number log_J) const
+  {
+    return p.melt_temperature *
+           pack_exp(2. * p.melt_correction * (1. - J) -
+                    2. * (p.gruneisen - p.melt_correction - 1. / 3.) * log_J);
+  }
 };
 
 /**

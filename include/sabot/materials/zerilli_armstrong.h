@@ -50,12 +50,13 @@ template <bool bcc>
 struct ZerilliArmstrongFlow
 {
   static constexpr bool constant_shear_modulus = true;
+  template <typename Number>
   struct Point
   {
-    double athermal;  // C0 [Pa]
-    double thermal;   // C1 or C2 times exp(-C3 T) [Pa]
-    double exponent;  // C4 T: of the rate
-    double hardening; // C5 [Pa]
+    Number athermal;  // C0 [Pa]
+    Number thermal;   // C1 or C2 times exp(-C3 T) [Pa]
+    Number exponent;  // C4 T: of the rate
+    Number hardening; // C5 [Pa]
   };
   ZerilliArmstrongParameters p;
 
@@ -63,45 +64,66 @@ struct ZerilliArmstrongFlow
    * Above melt all four are zero, and with them strength and slope. The
    * exponential of T is taken once per point, before the return.
    */
-  Point at(const double temperature, const double, const double) const
+  template <typename Number>
+  Point<Number> at(const Number temperature, const Number, const Number) const
   {
-    if (temperature >= p.melt_temperature)
-      return {0., 0., 0., 0.};
-    return {p.C0, (bcc ? p.C1 : p.C2) * std::exp(-p.C3 * temperature),
-            p.C4 * temperature, p.C5};
+    const Number solid = temperature < splat<Number>(p.melt_temperature)
+                             ? splat<Number>(1.)
+                             : Number{};
+    return {p.C0 * solid,
+            (bcc ? p.C1 : p.C2) * solid * pack_exp(-p.C3 * temperature),
+            p.C4 * solid * temperature, p.C5 * solid};
   }
   /**
    * C0: neither strain nor rate take anything off.
    * Both other terms are at least zero, so sigma >= C0 below melt.
    */
-  double lower_bound(const Point &point) const { return point.athermal; }
+  template <typename Number>
+  Number lower_bound(const Point<Number> &point) const
+  {
+    return point.athermal;
+  }
+  /** C0 below melt. */
+  double smallest_stress(const double temperature) const
+  {
+    return temperature < p.melt_temperature ? p.C0 : 0.;
+  }
   /**
    * With t = thermal rate^(C4 T) the slope is, at strain rate above 1e-12 1/s,
    *   fcc: sqrt(eps) t C4 T/(rate dt) + t/(2 sqrt(eps)),
    *   bcc: t C4 T/(rate dt) + n C5 eps^n/eps.
    * @p rate [1/s], @p dt [s]; strains below 1e-14 count as that.
    */
-  double stress(const Point &point, const double eps, const double rate,
-                const double dt, double &slope) const
+  template <typename Number>
+  Number stress(const Point<Number> &point, const Number eps, const Number rate,
+                const double dt, Number &slope) const
   {
-    const double slowest = 1e-12;
-    const double r = std::max(rate, slowest), safe = std::max(eps, 1e-14);
-    const double thermal =
-        point.thermal * std::exp(point.exponent * std::log(r));
-    const double rate_slope =
-        rate > slowest ? thermal * point.exponent / (r * dt) : 0.;
-    if (bcc)
+    const Number slowest = splat<Number>(1e-12), r = pack_max(rate, slowest),
+                 safe = pack_max(eps, splat<Number>(1e-14)),
+                 thermal =
+                     point.thermal * pack_exp(point.exponent * pack_log(r)),
+                 d = r * dt, inverse = 1. / (safe * d);
+    const Number by_rate =
+        rate > slowest ? thermal * point.exponent * safe : Number{};
+    if constexpr (bcc)
     {
-      const double hardening = point.hardening * std::pow(safe, p.n);
-      slope = rate_slope + p.n * hardening / safe;
+      const Number hardening = point.hardening * pack_power(safe, p.n);
+      slope = inverse * (by_rate + p.n * hardening * d);
       return point.athermal + thermal + hardening;
     }
-    const double root = std::sqrt(safe);
-    slope = root * rate_slope + 0.5 * thermal / root;
-    return point.athermal + thermal * root;
+    else
+    {
+      const Number root = pack_sqrt(safe);
+      slope = inverse * root * (by_rate + 0.5 * thermal * d);
+      return point.athermal + thermal * root;
+    }
   }
   /** The paper has no law for G: it is constant. */
-  double shear_factor(const Point &) const { return 1.; }
+  template <typename Number>
+  Number shear_factor(const Point<Number> &) const
+  {
+    return splat<Number>(1.);
+  }
 };
 
 /** Copper, aluminum, nickel: the effect of rate grows with strain. */

@@ -1,0 +1,243 @@
+// The return of whole batches: right at every point, whatever else is in the
+// batch, and the same for a Flow that is written point by point.
+#include "sabot/materials/johnson_cook.h"
+#include "sabot/materials/steinberg_guinan.h"
+#include "sabot/materials/zerilli_armstrong.h"
+#include "verification/metals.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace
+{
+using namespace sabot;
+
+/** Points from far below yield to far above it, at rest and hardened, cold and
+    molten. */
+struct Points
+{
+  explicit Points(const std::size_t n, const unsigned int seed = 1) : n(n)
+  {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> unit(0., 1.);
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const double size = std::pow(10., -9. + 8. * unit(generator)),
+                   bound = std::pow(10., 7. + 2. * unit(generator));
+      for (int c = 0; c < 6; ++c)
+      {
+        stress[c][k] = bound * (unit(generator) - 0.5);
+        strain[c][k] = size * (unit(generator) - 0.5);
+      }
+      jacobian[k] = 0.7 + 0.5 * unit(generator);
+      eps[k] = unit(generator) < 0.2 ? 0. : std::pow(unit(generator), 3.);
+      temperature[k] = 250. + 800. * unit(generator);
+      extra[k] = unit(generator) < 0.5 ? 0. : bound * bound;
+    }
+  }
+  /** One of them alone. */
+  Points(const Points &all, const std::size_t k) : n(1)
+  {
+    for (int c = 0; c < 6; ++c)
+    {
+      stress[c][0] = all.stress[c][k];
+      strain[c][0] = all.strain[c][k];
+    }
+    jacobian[0] = all.jacobian[k];
+    eps[0] = all.eps[k];
+    temperature[0] = all.temperature[k];
+    extra[0] = all.extra[k];
+  }
+  void update(const Material &law, const double dt)
+  {
+    double *const states[2] = {eps, temperature};
+    MaterialBatch batch;
+    batch.n = n;
+    batch.dt = dt;
+    for (int c = 0; c < 6; ++c)
+    {
+      batch.stress[c] = stress[c];
+      batch.strain_increment[c] = strain[c];
+    }
+    batch.jacobian = jacobian;
+    batch.states = states;
+    batch.extra_square = extra;
+    batch.return_factor = theta;
+    batch.plastic_work = work;
+    batch.stiffening = law.stiffens() ? stiffening : nullptr;
+    law.update(batch);
+  }
+
+  std::size_t n;
+  double stress[6][max_batch_points], strain[6][max_batch_points];
+  double jacobian[max_batch_points], extra[max_batch_points];
+  double eps[max_batch_points], temperature[max_batch_points];
+  double theta[max_batch_points], work[max_batch_points],
+      stiffening[max_batch_points];
+};
+
+JohnsonCookParameters johnson_cook(const double m)
+{
+  JohnsonCookParameters p = johnson_cook_parameters("al6061-t6");
+  p.C = 0.015;
+  p.m = m;
+  return p;
+}
+ZerilliArmstrongParameters zerilli()
+{
+  ZerilliArmstrongParameters p;
+  p.C0 = 65e6;
+  p.C1 = 1033e6;
+  p.C2 = 890e6;
+  p.C3 = 0.0028;
+  p.C4 = 0.000115;
+  p.C5 = 266e6;
+  p.n = 0.289;
+  p.melt_temperature = 900.;
+  return p;
+}
+SteinbergGuinanParameters steinberg()
+{
+  SteinbergGuinanParameters p;
+  p.yield_stress = 290e6;
+  p.largest_yield_stress = 680e6;
+  p.beta = 125.;
+  p.n = 0.1;
+  p.pressure_coefficient = 6.5e-11;
+  p.temperature_coefficient = 6.2e-4;
+  p.melt_temperature = 1220.;
+  return p;
+}
+
+/** Where a point yielded: q - 3 G d = sigma_y(eps + d, d/dt), with what holds
+    at the start of the step. */
+template <typename Flow>
+void expect_roots(const Flow &flow)
+{
+  const RateDependentPlasticity<Flow> law(aluminum(), flow, {}, {});
+  std::size_t n_yielding = 0, n_elastic = 0;
+  for (unsigned int seed = 1; seed <= 40; ++seed)
+  {
+    const double dt = std::pow(10., -10. + seed % 10);
+    const Points before(max_batch_points, seed);
+    Points after = before;
+    after.update(law, dt);
+    for (std::size_t k = 0; k < after.n; ++k)
+    {
+      double s[6], square = 0.;
+      const double *const b = &before.stress[0][k];
+      const double pressure =
+                       -(b[0] + before.stress[1][k] + before.stress[2][k]) / 3.,
+                   trace = (before.strain[0][k] + before.strain[1][k] +
+                            before.strain[2][k]) /
+                           3.;
+      const auto at =
+          flow.at(before.temperature[k], pressure, before.jacobian[k]);
+      const double G = law.shear_modulus() * flow.shear_factor(at);
+      for (int c = 0; c < 6; ++c)
+      {
+        s[c] = before.stress[c][k] + (c < 3 ? pressure - 2. * G * trace : 0.) +
+               2. * G * before.strain[c][k];
+        square += (c < 3 ? 1.5 : 3.) * s[c] * s[c];
+      }
+      const double q = std::sqrt(square + before.extra[k]),
+                   // eps + d is too round for the smallest ones
+          d = after.work[k] > 0. ? after.work[k] / (after.theta[k] * q)
+                                 : after.eps[k] - before.eps[k];
+      double slope;
+      const double yield = flow.stress(at, before.eps[k], 0., dt, slope);
+      if (std::abs(q - yield) < 1e-9 * q || !(G > 0.))
+        continue;
+      EXPECT_EQ(d > 0. || after.theta[k]<1., q> yield) << k << " " << seed;
+      if (!(q > yield))
+      {
+        ++n_elastic;
+        continue;
+      }
+      ++n_yielding;
+      EXPECT_NEAR(q - 3. * G * d,
+                  flow.stress(at, before.eps[k] + d, d / dt, dt, slope),
+                  2e-8 * q)
+          << "eps " << before.eps[k] << " d " << d << " dt " << dt;
+      EXPECT_NEAR(after.eps[k], before.eps[k] + d, 1e-14);
+      EXPECT_NEAR(after.theta[k], 1. - 3. * G * d / q, 1e-7);
+    }
+  }
+  EXPECT_GT(n_yielding, 500u);
+  EXPECT_GT(n_elastic, 20u);
+}
+
+TEST(FlowReturn, finds_the_root_at_every_point)
+{
+  expect_roots(JohnsonCookFlow{johnson_cook(1.34)});
+  expect_roots(JohnsonCookFlow{johnson_cook(0.7)});
+  expect_roots(ZerilliArmstrongFlow<false>{zerilli()});
+  expect_roots(ZerilliArmstrongFlow<true>{zerilli()});
+  expect_roots(SteinbergGuinanFlow{steinberg()});
+}
+
+template <typename Flow>
+void expect_no_neighbors(const Flow &flow)
+{
+  const RateDependentPlasticity<Flow> law(aluminum(), flow, {}, {});
+  for (const std::size_t n : {1, 5, 8, 31, 64})
+  {
+    const Points before(n, n);
+    Points together = before;
+    together.update(law, 1e-7);
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      Points alone(before, k);
+      alone.update(law, 1e-7);
+      for (int c = 0; c < 6; ++c)
+        EXPECT_EQ(alone.stress[c][0], together.stress[c][k]);
+      EXPECT_EQ(alone.eps[0], together.eps[k]);
+      EXPECT_EQ(alone.temperature[0], together.temperature[k]);
+      EXPECT_EQ(alone.theta[0], together.theta[k]);
+      EXPECT_EQ(alone.work[0], together.work[k]);
+    }
+  }
+}
+
+TEST(FlowReturn, a_point_does_not_see_its_batch)
+{
+  expect_no_neighbors(JohnsonCookFlow{johnson_cook(1.34)});
+  expect_no_neighbors(ZerilliArmstrongFlow<true>{zerilli()});
+  expect_no_neighbors(SteinbergGuinanFlow{steinberg()});
+}
+
+/** Ludwik's law with the rate of Cowper and Symonds, as one writes it down. */
+struct PlainFlow
+{
+  static constexpr bool constant_shear_modulus = true;
+  struct Point
+  {
+    double softening;
+  };
+  Point at(const double T, const double, const double) const
+  {
+    return {T < 900. ? 1. - T / 900. : 0.};
+  }
+  double lower_bound(const Point &point) const { return point.softening * A; }
+  double stress(const Point &point, const double eps, const double rate,
+                const double dt, double &slope) const
+  {
+    const double safe = std::max(eps, 1e-14), h = B * std::pow(safe, n);
+    const double fast = std::pow(rate / 4e4, 0.25);
+    slope = point.softening *
+            (n * h / safe * (1. + fast) +
+             (rate > 0. ? (A + h) * 0.25 * fast / (rate * dt) : 0.));
+    return point.softening * (A + h) * (1. + fast);
+  }
+  double shear_factor(const Point &) const { return 1.; }
+
+  double A = 324e6, B = 114e6, n = 0.42;
+};
+
+TEST(FlowReturn, a_flow_may_be_written_point_by_point)
+{
+  expect_roots(OneByOne<PlainFlow>{PlainFlow()});
+  expect_no_neighbors(OneByOne<PlainFlow>{PlainFlow()});
+}
+} // namespace
