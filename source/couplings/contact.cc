@@ -63,7 +63,7 @@ void Contact::update_surfaces()
 void Contact::update_search(const unsigned int, const double dt)
 {
   // Both sides move: candidates hold until together they covered the skin.
-  traveled += largest_closing_speed(bodies, holds_apart(), communicator) * dt;
+  traveled += closing_speed.largest(bodies, holds_apart(), communicator) * dt;
   unsigned int version = 0;
   for (const Body *body : bodies)
     version += body->contact_surface_version();

@@ -200,6 +200,7 @@ Contact::gather_of_slots(std::vector<double> ContactSurface::*const of_surface,
 void Contact::visit_state(StateVisitor &visitor)
 {
   visitor.visit_value("traveled", traveled);
+  closing_speed.visit_state(visitor);
   visitor.visit_value("surface version", surface_version);
   visitor.visit_value("penetration", penetration_over_spacing);
   visitor.visit_value("steady step", points.steady_step.value);

@@ -174,6 +174,8 @@ public:
               const double reach)
       : boxes(faces.size()), first_face(n_bodies + 1, 0)
   {
+    for (const FaceNodes &face : faces)
+      balls.emplace_back(face.x);
     // Faces of a body are contiguous.
     for (std::size_t f = 0; f < faces.size(); ++f)
     {
@@ -195,22 +197,24 @@ public:
     const auto near = buckets[body].find(x);
     return near.first != near.second;
   }
-  /** Calls @p action(face) for the faces of @p body whose box has @p x,
-      ascending. */
+  /** Calls @p action(face) for the faces of @p body that may be within
+      @p distance of @p x, ascending. */
   template <typename Action>
-  void for_near(const int body, const Vec x, const Action &action) const
+  void for_near(const int body, const Vec x, const double distance,
+                const Action &action) const
   {
     const auto near = buckets[body].find(x);
     for (const std::int32_t *item = near.first; item != near.second; ++item)
     {
       const std::int64_t f = first_face[body] + *item;
-      if (boxes[f].contains(x))
+      if (boxes[f].contains(x) && !balls[f].is_farther(x, distance))
         action(f);
     }
   }
 
 private:
   std::vector<Box> boxes;
+  std::vector<FaceBall> balls;
   std::vector<std::size_t> first_face; // of each body
   std::vector<BoxBuckets> buckets;     // per body
 };
@@ -276,12 +280,10 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
         search.skin;
     const std::int64_t first = near.size();
     buckets.for_near(
-        pair.faces_of, x,
+        pair.faces_of, x, reach,
         [&](const std::int64_t f)
         {
           const FaceNodes &face = result.faces[f];
-          if (is_farther(x, face.x, reach))
-            return;
           const FaceProjection projection = project_on_face(x, face.x);
           if (projection.distance_square < reach * reach &&
               (!with_itself || own_faces.may_meet(i, face, projection, memory)))
@@ -349,40 +351,5 @@ SearchResult ContactSearch::find() const
     try_nodes(*this, pair, extents[pair.faces_of].faces, buckets, result);
   merge(result, communicator);
   return result;
-}
-
-double largest_closing_speed(const std::vector<Body *> &bodies,
-                             const std::vector<std::pair<int, int>> &pairs,
-                             MPI_Comm communicator)
-{
-  std::vector<char> used(bodies.size(), 0);
-  for (const auto &pair : pairs)
-    used[pair.first] = used[pair.second] = 1;
-  Box all;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (used[b])
-    {
-      const NodalState &nodes = bodies[b]->nodes();
-      for (std::size_t i = 0; i < nodes.n_owned; ++i)
-        all.add(nodes.velocity[i]);
-    }
-  all.reduce(communicator);
-  const Vec middle = 0.5 * (all.low + all.high);
-  std::vector<double> square(bodies.size(), 0.);
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (used[b])
-    {
-      const NodalState &nodes = bodies[b]->nodes();
-      for (std::size_t i = 0; i < nodes.n_owned; ++i)
-        square[b] =
-            std::max(square[b], norm_square(nodes.velocity[i] - middle));
-    }
-  MPI_Allreduce(MPI_IN_PLACE, square.data(), square.size(), MPI_DOUBLE, MPI_MAX,
-                communicator);
-  double speed = 0.;
-  for (const auto &pair : pairs)
-    speed = std::max(speed, std::sqrt(square[pair.first]) +
-                                std::sqrt(square[pair.second]));
-  return speed;
 }
 } // namespace sabot

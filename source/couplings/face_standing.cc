@@ -62,6 +62,7 @@ void FaceStanding::clear()
 {
   corners.clear();
   face_of_node.clear();
+  shapes.clear();
 }
 
 std::array<Vec, 4> FaceStanding::places(const std::size_t face) const
@@ -70,6 +71,19 @@ std::array<Vec, 4> FaceStanding::places(const std::size_t face) const
   for (int a = 0; a < 4; ++a)
     x[a] = halo.position[corners[face][a]];
   return x;
+}
+
+const FaceStanding::Shape &FaceStanding::shape(const std::size_t face) const
+{
+  if (shapes.size() != corners.size())
+    shapes.assign(corners.size(), Shape());
+  Shape &shape = shapes[face];
+  if (shape.version != halo.version())
+  {
+    const std::array<Vec, 4> x = places(face);
+    shape = {halo.version(), FaceBall(x), normal_of(x)};
+  }
+  return shape;
 }
 
 std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
@@ -84,15 +98,16 @@ std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
   for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
     const std::size_t f = face_of_node[k];
-    const std::array<Vec, 4> x = places(f);
+    const Shape &face = shape(f);
     // With a margin, so that faces with the same closest point stay in.
     if (closest >= 0 &&
-        is_farther(p, x, 1.001 * std::sqrt(best.distance_square) + touching))
+        face.ball.is_farther(p, 1.001 * std::sqrt(best.distance_square) +
+                                    touching))
       continue;
     if (side != nullptr &&
-        dot(normal_of(x), side->direction) < side->least_cosine)
+        dot(face.normal, side->direction) < side->least_cosine)
       continue;
-    const FaceProjection projection = project_on_face(p, x);
+    const FaceProjection projection = project_on_face(p, places(f));
     const bool is_tie =
         std::abs(projection.distance_square - best.distance_square) <=
         1e-10 * best.distance_square;
@@ -124,11 +139,11 @@ SmoothNormal FaceStanding::normal_of_closest(const NearFaces &node,
   for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
     const std::size_t f = face_of_node[k];
-    const std::array<Vec, 4> x = places(f);
-    if (is_farther(p, x, distance) ||
-        dot(normal_of(x), side.direction) < side.least_cosine)
+    const Shape &face = shape(f);
+    if (face.ball.is_farther(p, distance) ||
+        dot(face.normal, side.direction) < side.least_cosine)
       continue;
-    const FaceProjection projection = project_on_face(p, x);
+    const FaceProjection projection = project_on_face(p, places(f));
     if (projection.distance_square <= distance * distance)
       mean.add(normals.of_face(f, projection.weight));
   }
@@ -146,11 +161,11 @@ std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec n,
   for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
     const std::size_t f = face_of_node[k];
-    const std::array<Vec, 4> x = places(f);
+    const Shape &face = shape(f);
     FaceHit here;
-    if (is_farther(p, x, reach) ||
-        dot(normal_of(x), side.direction) < side.least_cosine ||
-        !hit_face(p, n, x, here) ||
+    if (face.ball.is_farther(p, reach) ||
+        dot(face.normal, side.direction) < side.least_cosine ||
+        !hit_face(p, n, places(f), here) ||
         std::abs(here.ahead) > std::abs(found.ahead) + tie)
       continue;
     if (std::abs(here.ahead) < std::abs(found.ahead) - tie)

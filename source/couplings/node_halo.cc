@@ -48,6 +48,7 @@ void NodeHalo::build(const std::vector<Body *> &bodies,
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);
   all_bodies = bodies;
+  ++n_updates;
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   const auto owner = [&](const NodeKey &k)
@@ -93,6 +94,7 @@ void NodeHalo::build(const std::vector<Body *> &bodies,
 
 void NodeHalo::update()
 {
+  ++n_updates;
   for (std::size_t s = 0; s < n_owned(); ++s)
   {
     const NodalState &nodes = all_bodies[owned_body[s]]->nodes();

@@ -93,39 +93,48 @@ void SymmetryWalls::add_forces(const double dt)
   if (!is_step(dt))
     return;
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (const SymmetryWall &wall : walls[b])
-      hold(b, wall, dt, before);
+  {
+    if (walls[b].empty())
+      continue;
+    // One look at each node for all planes.
+    const NodalState &nodes = bodies[b]->nodes();
+    const double step = bodies[b]->moves_node_by_node() ? dt : 0.;
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
+      for (const SymmetryWall &wall : walls[b])
+      {
+        // The mass times where it would be, one step on.
+        const int axis = wall.plane.axis;
+        const double next =
+            nodes.inertia[i] * (wall.distance(nodes.position[i]) +
+                                step * (wall.side * nodes.velocity[i][axis])) +
+            step * step * (wall.side * nodes.force[i][axis]);
+        if (next < 0. && !nodes.is_follower(i) &&
+            !(wall.distance(nodes.reference_position[i]) <= wall.held_within))
+          hold({std::uint32_t(b), std::uint32_t(i), axis, dt, Vec{}}, wall,
+               next, before);
+      }
+  }
 }
 
-void SymmetryWalls::hold(const std::uint32_t body, const SymmetryWall &wall,
-                         const double dt, const std::vector<Held> &before)
+void SymmetryWalls::hold(Held h, const SymmetryWall &wall, const double next,
+                         const std::vector<Held> &before)
 {
-  NodalState &nodes = bodies[body]->nodes();
-  const bool is_rigid = !bodies[body]->moves_node_by_node();
-  const int axis = wall.plane.axis;
-  for (std::size_t i = 0; i < nodes.n_owned; ++i)
-  {
-    const double g = wall.distance(nodes.position[i]),
-                 v = wall.side * nodes.velocity[i][axis],
-                 f = wall.side * nodes.force[i][axis], m = nodes.inertia[i];
-    // The mass times where it would be, one step on.
-    const double next =
-        m * (is_rigid ? g : g + dt * v) + (is_rigid ? 0. : dt * dt * f);
-    if (!(next < 0.) || nodes.is_follower(i) ||
-        wall.distance(nodes.reference_position[i]) <= wall.held_within)
-      continue;
-    const bool bounces = !is_rigid && -m * v > 2. * dt * std::abs(f);
-    Held h{body, std::uint32_t(i), axis, dt, Vec{}};
-    if (is_rigid)
-      for (const Held &b : before)
-        if (b.body == body && b.node == i && b.axis == axis)
-          h.step = std::max(dt, b.step);
-    h.force[axis] = wall.side * (bounces ? -2. * (m * v / dt + f)
-                                         : -next / (h.step * h.step));
-    nodes.force[i] += h.force;
-    held.push_back(h);
-    farthest = std::max(farthest, -g);
-  }
+  NodalState &nodes = bodies[h.body]->nodes();
+  const bool is_rigid = !bodies[h.body]->moves_node_by_node();
+  const std::size_t i = h.node;
+  const int axis = h.axis;
+  const double dt = h.step, v = wall.side * nodes.velocity[i][axis],
+               f = wall.side * nodes.force[i][axis], m = nodes.inertia[i];
+  const bool bounces = !is_rigid && -m * v > 2. * dt * std::abs(f);
+  if (is_rigid)
+    for (const Held &b : before)
+      if (b.body == h.body && b.node == h.node && b.axis == axis)
+        h.step = std::max(dt, b.step);
+  h.force[axis] = wall.side * (bounces ? -2. * (m * v / dt + f)
+                                       : -next / (h.step * h.step));
+  nodes.force[i] += h.force;
+  held.push_back(h);
+  farthest = std::max(farthest, -wall.distance(nodes.position[i]));
 }
 
 void SymmetryWalls::accumulate_work(const double half_dt)

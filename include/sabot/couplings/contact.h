@@ -1,6 +1,7 @@
 #ifndef sabot_couplings_contact_h
 #define sabot_couplings_contact_h
 
+#include "sabot/couplings/closing_speed.h"
 #include "sabot/couplings/contact_options.h"
 #include "sabot/couplings/contact_patch.h"
 #include "sabot/couplings/contact_points.h"
@@ -169,6 +170,7 @@ private:
   std::vector<TouchedNode> touched; // by the points, one after the other
   unsigned int surface_version = 0; // sum over bodies at the last search
   double skin = 0., traveled = 0.;  // [m]
+  ClosingSpeed closing_speed;
   double initial_over_spacing = 0., penetration_over_spacing = 0.;
   NodeKey initial_node{-1, 0, -1};
 };

@@ -78,17 +78,6 @@ struct ContactSearch
   /** Collective; the same on every rank. */
   SearchResult find() const;
 };
-
-/**
- * Largest speed at which a node of one body of a pair can close in on a node of
- * the other [m/s]: max over pairs of |v_a - m| + |v_b - m|, each the largest of
- * its body, with the middle m of the box around all velocities of the bodies in
- * @p pairs. A bound: what flies along with the scene costs nothing. Collective,
- * the same on all ranks.
- */
-double largest_closing_speed(const std::vector<Body *> &bodies,
-                             const std::vector<std::pair<int, int>> &pairs,
-                             MPI_Comm communicator);
 } // namespace sabot
 
 #endif

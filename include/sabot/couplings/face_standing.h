@@ -112,12 +112,22 @@ private:
                           const Side &side, const bool may_be_deep,
                           FaceProjection &projection, const double dt) const;
   std::array<Vec, 4> places(const std::size_t face) const;
+  /** A face as many nodes ask for it. */
+  struct Shape
+  {
+    std::uint64_t version = 0; // of the halo
+    FaceBall ball;
+    Vec normal = {};
+  };
+  /** Found once after the halo has moved. */
+  const Shape &shape(const std::size_t face) const;
   /** Velocity of the node against the face's closest point [m/s]. */
   Vec velocity_against(const NearFaces &node, const std::ptrdiff_t face,
                        const FaceProjection &projection) const;
 
   const NodeHalo &halo;
   SurfaceNormals normals;
+  mutable std::vector<Shape> shapes; // of the faces that were asked for
 };
 } // namespace sabot
 

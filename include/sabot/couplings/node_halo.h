@@ -68,6 +68,8 @@ public:
       slots are left, for their owners compute them, too. */
   void add_to_bodies(const AlignedVector<Vec> &force) const;
 
+  /** Another one since positions are others. */
+  std::uint64_t version() const { return n_updates; }
   std::size_t n_owned() const { return owned_body.size(); }
   std::size_t size() const { return key_of_slot.size(); }
   const NodeKey &key(const std::size_t slot) const { return key_of_slot[slot]; }
@@ -103,6 +105,7 @@ private:
   std::vector<std::int32_t> owned_body;
   std::vector<std::size_t> owned_local;
   GhostExchange exchange;
+  std::uint64_t n_updates = 0;
 };
 
 /** Concatenate the vectors of all ranks in rank order; T goes as it is in

@@ -82,8 +82,10 @@ private:
     double step;              // of rigid bodies, longest since it came in [s]
     Vec force;                // [N]
   };
-  /** One body at one wall; @p before: who was held in the last step. */
-  void hold(const std::uint32_t body, const SymmetryWall &wall, const double dt,
+  /** Pushes @p h, so far without a force, off the wall; @p next: its mass times
+      its distance one step on [kg m], @p before: who was held in the last
+      step. */
+  void hold(Held h, const SymmetryWall &wall, const double next,
             const std::vector<Held> &before);
 
   const std::vector<Body *> bodies;

@@ -105,22 +105,32 @@ struct FaceProjection
 };
 
 /**
- * Whether all of the quadrilateral x is farther from p than @p distance, seen
- * from the ball around its corners: a cheap first question, which says no where
- * it is not sure.
- * The ball has the mean of the corners as its center c and the distance of the
- * farthest corner as its radius r, so the test is |p - c| > distance + r. All
- * four triangles of project_on_face() lie in the ball, as a ball is convex.
+ * The ball around the corners of a quadrilateral x. Whether all of the face is
+ * farther from p than a distance, seen from it, is a cheap first question,
+ * which says no where it is not sure. The ball has the mean of the corners as
+ * its center c and the distance of the farthest corner as its radius r, so the
+ * test is |p - c| > distance + r. All four triangles of project_on_face() lie
+ * in the ball, as a ball is convex.
  */
-inline bool is_farther(const Vec p, const std::array<Vec, 4> &x,
-                       const double distance)
+struct FaceBall
 {
-  const Vec center = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-  double radius_square = 0.;
-  for (const Vec corner : x)
-    radius_square = std::max(radius_square, norm_square(corner - center));
-  return norm(p - center) > distance + std::sqrt(radius_square);
-}
+  FaceBall() = default;
+  explicit FaceBall(const std::array<Vec, 4> &x)
+      : center(0.25 * (x[0] + x[1] + x[2] + x[3]))
+  {
+    double radius_square = 0.;
+    for (const Vec corner : x)
+      radius_square = std::max(radius_square, norm_square(corner - center));
+    radius = std::sqrt(radius_square);
+  }
+  bool is_farther(const Vec p, const double distance) const
+  {
+    return norm(p - center) > distance + radius;
+  }
+
+  Vec center = {};
+  double radius = 0.;
+};
 
 /**
  * Closest point of a quadrilateral, taken as four triangles around its center,
