@@ -45,7 +45,7 @@ void ParticleContact::initialize()
 
 void ParticleContact::update_search(const unsigned int, const double dt)
 {
-  age.traveled += closing_speed.largest(bodies, pairs, communicator) * dt;
+  age.traveled += age.closing_speed.largest(bodies, pairs, communicator) * dt;
   // Bodies that grow have new particles at once.
   if (age.traveled > allowance || age.have_changed(bodies))
     search();
@@ -341,7 +341,6 @@ Measures ParticleContact::measure() const
 void ParticleContact::visit_state(StateVisitor &visitor)
 {
   age.visit_state(visitor);
-  closing_speed.visit_state(visitor);
   visitor.visit_value("allowance", allowance);
   visitor.visit_value("penetration", over_spacing.largest);
   visitor.visit_value("steady step", points.steady_step.value);

@@ -49,7 +49,7 @@ void SelfContact::initialize()
 
 void SelfContact::update_search(const unsigned int, const double dt)
 {
-  double speed = closing_speed.largest(bodies, body_pairs, communicator);
+  double speed = age.closing_speed.largest(bodies, body_pairs, communicator);
   if (images.any())
     speed = std::max(speed, speed_towards_images());
   age.traveled += speed * dt;
@@ -289,7 +289,6 @@ Measures SelfContact::measure() const
 void SelfContact::visit_state(StateVisitor &visitor)
 {
   age.visit_state(visitor);
-  closing_speed.visit_state(visitor);
   visitor.visit_value("loose particles", n_loose);
   // A pair knows at which distance it was first met.
   visitor.visit_resized("pairs", pairs);

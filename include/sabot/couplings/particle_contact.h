@@ -1,7 +1,6 @@
 #ifndef sabot_couplings_particle_contact_h
 #define sabot_couplings_particle_contact_h
 
-#include "sabot/couplings/closing_speed.h"
 #include "sabot/couplings/contact_options.h"
 #include "sabot/couplings/contact_points.h"
 #include "sabot/couplings/coupling.h"
@@ -130,7 +129,6 @@ private:
   double skin = 0.;      // [m], by which candidates may approach
   double allowance = 0.; // [m], of travel until the next search
   SearchAge age;
-  ClosingSpeed closing_speed;
   struct Depth
   {
     double initial = 0., largest = 0.;

@@ -1,7 +1,7 @@
 #ifndef sabot_couplings_search_age_h
 #define sabot_couplings_search_age_h
 
-#include "sabot/base/state_visitor.h"
+#include "sabot/couplings/closing_speed.h"
 #include "sabot/bodies/body.h"
 
 #include <vector>
@@ -14,6 +14,7 @@ class SearchAge
 {
 public:
   double traveled = 0.; // [m]
+  ClosingSpeed closing_speed;
   /** Whether bodies have others. Since the last call; the same on all ranks. */
   bool have_changed(const std::vector<Body *> &bodies)
   {
@@ -28,6 +29,7 @@ public:
   {
     visitor.visit_value("traveled", traveled);
     visitor.visit_value("versions of particles", sum);
+    closing_speed.visit_state(visitor);
   }
 
 private:

@@ -1,7 +1,6 @@
 #ifndef sabot_couplings_self_contact_h
 #define sabot_couplings_self_contact_h
 
-#include "sabot/couplings/closing_speed.h"
 #include "sabot/couplings/contact_options.h"
 #include "sabot/couplings/contact_points.h"
 #include "sabot/couplings/coupling.h"
@@ -115,7 +114,6 @@ private:
   ContactPoints points; // of the step
   double skin = 0.;
   SearchAge age;
-  ClosingSpeed closing_speed;
   std::size_t n_loose = 0;
 };
 } // namespace sabot
