@@ -1,8 +1,8 @@
 #ifndef sabot_couplings_search_age_h
 #define sabot_couplings_search_age_h
 
-#include "sabot/couplings/closing_speed.h"
 #include "sabot/bodies/body.h"
+#include "sabot/couplings/closing_speed.h"
 
 #include <vector>
 
