@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 namespace
 {
 using namespace sabot;
@@ -28,6 +31,33 @@ TEST(Principal, the_middle_eigenvalue)
 {
   const Mat m = {{vec(5, 0, 0), vec(0, 2, 1), vec(0, 1, 2)}};
   EXPECT_NEAR(middle_eigenvalue(m), 3., 1e-14);
+}
+
+TEST(Principal, eigenvalues_above_a_limit)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1., 1.);
+  for (int trial = 0; trial < 2000; ++trial)
+  {
+    const double a = number(random), b = number(random), c = number(random),
+                 d = number(random), e = number(random), f = number(random);
+    const Mat m = {{vec(a, d, f), vec(d, b, e), vec(f, e, c)}};
+    const double least =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(to_eigen(m))
+            .eigenvalues()[0];
+    EXPECT_TRUE(has_eigenvalues_above(m, least - 1e-12));
+    EXPECT_FALSE(has_eigenvalues_above(m, least + 1e-12));
+    // Both ways of the damped inverse agree where nothing is damped.
+    const Mat moment = m * transpose(m) + 0.5 * Mat::identity();
+    int n_damped = 1;
+    const Mat unit = damped_inverse(moment, 0.4, n_damped) * moment;
+    EXPECT_EQ(n_damped, 0);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(norm(unit.row[i] - Mat::identity().row[i]), 0., 1e-13);
+  }
+  Mat hole = Mat::identity();
+  hole.set(2, 1, std::nan(""));
+  EXPECT_FALSE(has_eigenvalues_above(hole, 0.));
 }
 
 TEST(PatchWeights, add_to_one_without_a_moment)

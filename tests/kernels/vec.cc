@@ -46,6 +46,14 @@ TEST(Kernel, cubic_spline_is_smooth_and_ends)
   EXPECT_NEAR(cubic_spline(0.5 - 1e-12), cubic_spline(0.5 + 1e-12), 1e-11);
   EXPECT_EQ(cubic_spline(1.), 0.);
   EXPECT_EQ(cubic_spline(1.7), 0.);
+  for (double r = 0.; r < 1.2; r += 0.01)
+  {
+    const Pack four = cubic_spline(Pack{r, 0.5 * r, 1., 2. * r});
+    EXPECT_NEAR(four[0], cubic_spline(r), 4e-16);
+    EXPECT_NEAR(four[1], cubic_spline(0.5 * r), 4e-16);
+    EXPECT_EQ(four[2], 0.);
+    EXPECT_NEAR(four[3], cubic_spline(2. * r), 4e-16);
+  }
 }
 
 TEST(Kernel, damped_inverse)

@@ -1,6 +1,7 @@
 #ifndef sabot_kernels_kernel_function_h
 #define sabot_kernels_kernel_function_h
 
+#include "sabot/kernels/pack.h"
 #include "sabot/kernels/vec.h"
 
 #include <cmath>
@@ -24,6 +25,14 @@ inline double cubic_spline(const double r)
                   : 4. / 3. * (1. - r) * (1. - r) * (1. - r);
 }
 
+/** Of four at once, without branches: 4/3 (1 - r)^3 less 16/3 (1/2 - r)^3, of
+    which what is negative in brackets counts as zero. The same to round-off. */
+inline Pack cubic_spline(const Pack r)
+{
+  const Pack a = pack_max(1. - r, Pack{}), b = pack_max(0.5 - r, Pack{});
+  return 4. / 3. * (a * a * a - 4. * (b * b * b));
+}
+
 /** d phi/d r of cubic_spline(): 12 r^2 - 8 r inside of r = 1/2, -4 (1 - r)^2
     outside; zero at the center and from r = 1 on. */
 inline double cubic_spline_slope(const double r)
@@ -41,6 +50,12 @@ inline double cubic_spline_slope(const double r)
 struct SphericalKernel
 {
   static double weight(const Vec xi) { return cubic_spline(norm(xi)); }
+  /** Of four neighbors, by components. */
+  static Pack weight(const Pack xi[3])
+  {
+    return cubic_spline(
+        pack_sqrt(xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]));
+  }
   /** d w/d xi; the gradient by X is H^-T times it [1/m]. */
   static Vec slope(const Vec xi)
   {
@@ -60,6 +75,12 @@ struct TensorKernel
   {
     return cubic_spline(std::abs(xi[0])) * cubic_spline(std::abs(xi[1])) *
            cubic_spline(std::abs(xi[2]));
+  }
+  static Pack weight(const Pack xi[3])
+  {
+    return cubic_spline(pack_max(xi[0], -xi[0])) *
+           cubic_spline(pack_max(xi[1], -xi[1])) *
+           cubic_spline(pack_max(xi[2], -xi[2]));
   }
   static Vec slope(const Vec xi)
   {

@@ -15,6 +15,19 @@ namespace sabot
 // loops over particles; with Eigen's decompositions, which take seconds to
 // parse: include this in source files only.
 
+/** Whether all eigenvalues of the symmetric matrix m, of which the lower
+    triangle is read, are above @p limit: m - limit 1 is positive definite,
+   which its leading minors tell (Sylvester). False where any entry is no
+   number. */
+inline bool has_eigenvalues_above(const Mat &m, const double limit)
+{
+  const double a = m(0, 0) - limit, b = m(1, 1) - limit, c = m(2, 2) - limit;
+  const double d = m(1, 0), e = m(2, 1), f = m(2, 0);
+  const double minor = a * b - d * d;
+  return a > 0. && minor > 0. &&
+         c * minor - e * (a * e - d * f) - f * (b * f - d * e) > 0.;
+}
+
 /**
  * Inverse of a symmetric positive semidefinite moment matrix whose small
  * eigenvalues are damped: with the spectrum M = sum e_i n_i (x) n_i,
@@ -31,14 +44,17 @@ namespace sabot
  * below the threshold the result is the inverse to round-off. At the threshold
  * both branches of g are 1/threshold, its largest value, which thus bounds the
  * norm of the result. @p moment is symmetric; of it only the lower triangle is
- * read (Eigen's SelfAdjointEigenSolver, iterative form).
+ * read (Eigen's SelfAdjointEigenSolver, iterative form). Eigenvalues are found
+ * only where one is below the threshold.
  */
 inline Mat damped_inverse(const Mat &moment, const double threshold,
                           int &n_damped)
 {
+  n_damped = 0;
+  if (has_eigenvalues_above(moment, threshold))
+    return inverse(moment);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.compute(to_eigen(moment));
-  n_damped = 0;
   Eigen::Vector3d inverse;
   for (int i = 0; i < 3; ++i)
   {
@@ -111,21 +127,22 @@ inline double middle_eigenvalue(const Mat &moment)
  *
  * Column j of h over axes[j] makes h', the stretch of the support since the
  * start, without unit; its singular values are those of the square root of h'^T
- * h'. The cheap test: where the Frobenius norm of h'^T h' - 1 is below min(1 -
- * low^2, high^2 - 1) every singular value is within the limits. Singular values
+ * h'. The cheap test: where h'^T h' - low^2 1 and high^2 1 - h'^T h' are
+ * positive definite every singular value is within the limits. Singular values
  * are taken as at least 1e-6 in the division, for supports that have collapsed.
  */
 inline Mat clamp_kernel(const Mat &h, const Vec axes, const double low,
                         const double high)
 {
-  Eigen::Matrix3d m = to_eigen(h);
-  for (int j = 0; j < 3; ++j)
-    m.col(j) /= axes[j];
-  const Eigen::Matrix3d c = m.transpose() * m;
-  // Most kernels are far from the limits; the norm tells without eigenvalues.
-  const double distance = (c - Eigen::Matrix3d::Identity()).norm();
-  if (distance < std::min(1. - low * low, high * high - 1.))
+  const Vec divisor = axes + Vec{0., 0., 0., 1.};
+  const Mat stretch = {
+      {h.row[0] / divisor, h.row[1] / divisor, h.row[2] / divisor}};
+  const Mat square = transpose(stretch) * stretch;
+  // Most kernels are far from the limits, which shows without eigenvalues.
+  if (has_eigenvalues_above(square, low * low) &&
+      has_eigenvalues_above(-1. * square, -high * high))
     return h;
+  const Eigen::Matrix3d m = to_eigen(stretch), c = to_eigen(square);
   // m = U S V^T: with V from m^T m, m V diag(s'/s) V^T has singular values s'.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(c);
   Eigen::Vector3d factor;

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 
 namespace sabot
 {
@@ -97,10 +96,9 @@ BondList::rows_within(const std::vector<std::array<double, 3>> &points,
   const Buckets buckets(points, spacing, support);
   // A neighbor exactly at the support's edge has no weight.
   const double reach = support * (1. - 1e-9);
-  Rows rows(owned_ids.size());
-  for (std::size_t row = 0; row < owned_ids.size(); ++row)
+  Rows rows;
+  for (const GlobalIndex i : owned_ids)
   {
-    const GlobalIndex i = owned_ids[row];
     buckets.around(i,
                    [&](const GlobalIndex j)
                    {
@@ -115,9 +113,9 @@ BondList::rows_within(const std::vector<std::array<double, 3>> &points,
                      if (r2 < 1e-12)
                        fail_coincident(points, i, j);
                      if ((cubic ? largest : r2) < reach * reach)
-                       rows[row].push_back(j);
+                       rows.add(j);
                    });
-    std::sort(rows[row].begin(), rows[row].end());
+    rows.sort_and_end_row();
   }
   return rows;
 }
@@ -148,11 +146,10 @@ BondList::rows_in_kernels(const std::vector<std::array<double, 3>> &points,
   };
   // A neighbor exactly at the kernel's edge has no weight.
   constexpr double edge = 1. - 1e-9, coincident = 5e-7;
-  Rows rows(owned_ids.size());
+  Rows rows;
   const Buckets buckets(points, extent, 1.);
-  for (std::size_t row = 0; row < owned_ids.size(); ++row)
+  for (const GlobalIndex i : owned_ids)
   {
-    const GlobalIndex i = owned_ids[row];
     buckets.around(i,
                    [&](const GlobalIndex j)
                    {
@@ -164,9 +161,9 @@ BondList::rows_in_kernels(const std::vector<std::array<double, 3>> &points,
                      if (std::min(there, back) < coincident)
                        fail_coincident(points, i, j);
                      if (std::min(there, back) < edge)
-                       rows[row].push_back(j);
+                       rows.add(j);
                    });
-    std::sort(rows[row].begin(), rows[row].end());
+    rows.sort_and_end_row();
   }
   return rows;
 }
@@ -174,10 +171,11 @@ BondList::rows_in_kernels(const std::vector<std::array<double, 3>> &points,
 std::vector<GlobalIndex>
 BondList::ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids)
 {
+  const NumberIndex place(owned_ids.data(), owned_ids.size());
   std::vector<GlobalIndex> ghosts;
-  for (const auto &row : rows)
-    for (const GlobalIndex j : row)
-      if (!std::binary_search(owned_ids.begin(), owned_ids.end(), j))
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const GlobalIndex j : rows[i])
+      if (place(j) == owned_ids.size())
         ghosts.push_back(j);
   std::sort(ghosts.begin(), ghosts.end());
   ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
@@ -189,39 +187,44 @@ void BondList::connect(const Rows &rows,
                        const std::vector<int> &ghost_owner,
                        const GlobalIndex n_global, MPI_Comm comm)
 {
-  std::unordered_map<GlobalIndex, std::uint32_t> local;
-  local.reserve(global_id.size());
-  for (std::size_t i = 0; i < global_id.size(); ++i)
-    local[global_id[i]] = i;
-
-  std::vector<std::size_t> new_start(1, 0);
-  std::vector<std::uint32_t> new_count;
-  AlignedVector<std::uint32_t> new_neighbor;
-  std::vector<std::uint32_t> new_origin;
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  const std::size_t n_rows = rows.size();
+  const bool has_all = n_rows == static_cast<std::size_t>(n_global);
+  const NumberIndex of_owned(global_id.data(), n_rows),
+      of_ghost(global_id.data() + n_rows, global_id.size() - n_rows);
+  std::vector<std::size_t> new_start(n_rows + 1, 0);
+  for (std::size_t i = 0; i < n_rows; ++i)
+    new_start[i + 1] = new_start[i] + packed(rows[i].size());
+  std::vector<std::uint32_t> new_count(n_rows), new_origin(new_start[n_rows]);
+  AlignedVector<std::uint32_t> new_neighbor(new_start[n_rows]);
+  for (std::size_t i = 0; i < n_rows; ++i)
   {
     // Both the old and the new row ascend.
     const bool is_old = i < n_owned; // bodies may grow
     std::size_t old = is_old ? begin(i) : 0;
     const std::size_t last = is_old ? end(i) : 0;
+    std::size_t bond = new_start[i];
     for (const GlobalIndex j : rows[i])
     {
       while (old < last && id[neighbor[old]] < j)
         ++old;
       const bool kept = old < last && id[neighbor[old]] == j;
-      new_origin.push_back(kept ? old : is_new);
-      new_neighbor.push_back(local.at(j));
+      new_origin[bond] = kept ? old : is_new;
+      const std::size_t place = has_all ? j : of_owned(j);
+      new_neighbor[bond] = place < n_rows ? place : n_rows + of_ghost(j);
+      ++bond;
     }
-    new_neighbor.resize(packed(new_neighbor.size()), i);
-    new_origin.resize(new_neighbor.size(), is_new);
-    new_start.push_back(new_neighbor.size());
-    new_count.push_back(rows[i].size());
+    new_count[i] = rows[i].size();
+    for (; bond < new_start[i + 1]; ++bond)
+    {
+      new_neighbor[bond] = i;
+      new_origin[bond] = is_new;
+    }
   }
   communicator = comm;
   id = global_id;
   owner_of_ghost = ghost_owner;
   n_total = n_global;
-  n_owned = rows.size();
+  n_owned = n_rows;
   row_start.swap(new_start);
   count.swap(new_count);
   neighbor.swap(new_neighbor);
@@ -240,24 +243,53 @@ std::size_t BondList::find(const std::size_t i,
   throw std::logic_error("a bond is missing at one of its ends");
 }
 
-void BondList::reconnect()
+void BondList::reverse_owned()
 {
-  reverse.assign(neighbor.size() + look_ahead, 0u);
-  std::iota(reverse.begin(), reverse.begin() + neighbor.size(), 0u);
-  std::vector<int> owners;
-  std::vector<GlobalIndex> keys;
+  // Rows ascend, and so do the particles that are asked in turn: each row is
+  // met from its begin to its end.
+  std::vector<std::size_t> next(row_start.begin(), row_start.end() - 1);
+  const auto skip_ghosts = [&](const std::size_t j)
+  {
+    while (next[j] < end(j) && neighbor[next[j]] >= n_owned)
+      ++next[j];
+  };
+  const auto fail = []
+  { throw std::logic_error("a bond is missing at one of its ends"); };
   for (std::size_t i = 0; i < n_owned; ++i)
     for (std::size_t b = begin(i); b < end(i); ++b)
     {
       const std::uint32_t j = neighbor[b];
+      if (j >= n_owned)
+        continue;
+      skip_ghosts(j);
+      if (next[j] == end(j) || neighbor[next[j]] != i)
+        fail();
+      reverse[b] = next[j]++;
+    }
+  for (std::size_t i = 0; i < n_owned; ++i)
+  {
+    skip_ghosts(i);
+    if (next[i] != end(i))
+      fail();
+  }
+}
+
+void BondList::reconnect()
+{
+  reverse.assign(neighbor.size() + look_ahead, 0u);
+  std::iota(reverse.begin(), reverse.begin() + neighbor.size(), 0u);
+  reverse_owned();
+  std::vector<int> owners;
+  std::vector<GlobalIndex> keys;
+  for (std::size_t i = 0; i < n_owned && !owner_of_ghost.empty(); ++i)
+    for (std::size_t b = begin(i); b < end(i); ++b)
+    {
+      const std::uint32_t j = neighbor[b];
       if (j < n_owned)
-        reverse[b] = find(j, id[i]);
-      else
-      {
-        reverse[b] = neighbor.size() + owners.size();
-        owners.push_back(owner_of_ghost[j - n_owned]);
-        keys.push_back(id[j] * n_total + id[i]);
-      }
+        continue;
+      reverse[b] = neighbor.size() + owners.size();
+      owners.push_back(owner_of_ghost[j - n_owned]);
+      keys.push_back(id[j] * n_total + id[i]);
     }
   exchange =
       GhostExchange(communicator, neighbor.size(), owners, keys,

@@ -103,12 +103,12 @@ BondList::Rows search_neighbors(const SpgOptions &options,
   const bool cubic = options.has_tensor_kernel(),
              keeps_bonds = options.neighbor_policy ==
                            SpgOptions::NeighborPolicy::search_undamaged;
-  BondList::Rows rows(n);
+  BondList::Rows rows;
   for (std::size_t i = 0; i < n; ++i)
   {
     if (keeps_bonds)
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-        rows[i].push_back(nodes.global_id[bonds.neighbor[b]]);
+        rows.add(nodes.global_id[bonds.neighbor[b]]);
     for (const GlobalIndex j : candidates[i])
     {
       const Item &there = all[j];
@@ -125,10 +125,9 @@ BondList::Rows search_neighbors(const SpgOptions &options,
       };
       if (keeps_bonds ? failure.n_failed[i] == 0 && !there.is_damaged
                       : !has_failed())
-        rows[i].push_back(j);
+        rows.add(j);
     }
-    std::sort(rows[i].begin(), rows[i].end());
-    rows[i].erase(std::unique(rows[i].begin(), rows[i].end()), rows[i].end());
+    rows.sort_and_end_row();
   }
   return rows;
 }

@@ -195,10 +195,13 @@ BondList::Rows ParticleIntake::grow()
     if (known != local_of_host.end())
       merge(known->second, k);
   }
-  BondList::Rows old_rows(before);
+  BondList::Rows old_rows;
   for (std::size_t i = 0; i < before; ++i)
+  {
     for (std::size_t b = body.bonds.begin(i); b < body.bonds.end(i); ++b)
-      old_rows[i].push_back(body.nodes.global_id[body.bonds.neighbor[b]]);
+      old_rows.add(body.nodes.global_id[body.bonds.neighbor[b]]);
+    old_rows.end_row();
+  }
   extend(new_hosts);
   for (std::size_t k = 0; k < fresh.size(); ++k)
   {
@@ -208,12 +211,18 @@ BondList::Rows ParticleIntake::grow()
         hosts.begin();
     fill_new(i, fresh[k]);
   }
-  BondList::Rows rows = rows_with(first_new);
-  for (std::size_t i = 0; i < before; ++i)
-    rows[i].insert(rows[i].begin(), old_rows[i].begin(), old_rows[i].end());
-  std::vector<char> has_grown(rows.size(), 0);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    has_grown[i] = i >= before || rows[i].size() > old_rows[i].size();
+  // New ones have the highest numbers, so they follow what was there.
+  const BondList::Rows with_new = rows_with(first_new);
+  BondList::Rows rows;
+  std::vector<char> has_grown(with_new.size(), 0);
+  for (std::size_t i = 0; i < with_new.size(); ++i)
+  {
+    if (i < before)
+      rows.add(old_rows[i].begin(), old_rows[i].end());
+    rows.add(with_new[i].begin(), with_new[i].end());
+    rows.end_row();
+    has_grown[i] = i >= before || with_new[i].size() > 0;
+  }
   body.approximation.renew_intact(has_grown);
   return rows;
 }
@@ -227,14 +236,19 @@ BondList::Rows ParticleIntake::rows_with(const GlobalIndex first_new) const
   const std::vector<GlobalIndex> owned(body.nodes.global_id.begin(),
                                        body.nodes.global_id.begin() +
                                            body.nodes.n_owned);
-  BondList::Rows rows = BondList::rows_in_kernels(
+  const BondList::Rows all = BondList::rows_in_kernels(
       points, body.kernel.initial_kernels_of(body.cloud, hosts),
       body.options.has_tensor_kernel(), owned);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (owned[i] < first_new)
-      rows[i].erase(
-          rows[i].begin(),
-          std::lower_bound(rows[i].begin(), rows[i].end(), first_new));
+  BondList::Rows rows;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const BondList::Rows::Row row = all[i];
+    rows.add(owned[i] < first_new
+                 ? std::lower_bound(row.begin(), row.end(), first_new)
+                 : row.begin(),
+             row.end());
+    rows.end_row();
+  }
   return rows;
 }
 

@@ -141,7 +141,9 @@ void SpgBody::renumber(const BondList::Rows &rows)
   const std::size_t n = nodal_state.n_owned;
   std::vector<GlobalIndex> ids(nodal_state.global_id.begin(),
                                nodal_state.global_id.begin() + n);
-  const std::vector<GlobalIndex> ghosts = BondList::ghosts_of(rows, ids);
+  std::vector<GlobalIndex> ghosts;
+  if (n < static_cast<std::size_t>(n_global))
+    ghosts = BondList::ghosts_of(rows, ids);
   std::vector<int> ghost_owner;
   for (const GlobalIndex g : ghosts)
     ghost_owner.push_back(rank_of[g]);
@@ -264,19 +266,25 @@ void SpgBody::update_kernel(const unsigned int step)
   const std::vector<std::uint32_t> failed_before = failure.n_failed;
   std::vector<char> lost_before = approximation.lost_direction;
   const std::vector<char> failed_already = failure.is_failed;
-  if (failure.remove(nodal_state, bonds, node_exchange))
+  failure.count(nodal_state, bonds, node_exchange);
+  const bool renews = failure.renews_crumbled(communicator),
+             searches = options.neighbor_policy !=
+                        SpgOptions::NeighborPolicy::lagrangian;
+  // Rows of crumbled metal come without the bonds that failed.
+  if ((searches || !renews) && failure.remove(bonds))
     stabilization->carry_bonds(bonds);
   bonds.settle();
-  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian)
+  if (searches)
   {
     renumber(search_neighbors(options, nodal_state, bonds, fields, failure,
                               n_global, communicator));
     node_exchange.update(fields.kernel.data());
   }
-  if (failure.renews_crumbled(communicator))
+  if (renews)
   {
     renumber(renew_crumbled_neighbors(nodal_state, bonds, failure, kernel,
                                       communicator));
+    failure.forget_marks();
     node_exchange.update(fields.kernel.data());
   }
   if (intake && intake->is_waiting())

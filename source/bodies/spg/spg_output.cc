@@ -224,11 +224,12 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
     visitor.visit_resized("row neighbors", neighbors);
     if (visitor.is_restoring())
     {
-      BondList::Rows rows(n);
+      BondList::Rows rows;
       auto j = neighbors.begin();
       for (std::size_t i = 0; i < n; ++i)
       {
-        rows[i].assign(j, j + lengths[i]);
+        rows.add(j, j + lengths[i]);
+        rows.end_row();
         j += lengths[i];
       }
       renumber(rows);

@@ -4,6 +4,7 @@
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/base/memory_table.h"
 #include "sabot/base/types.h"
+#include "sabot/bodies/spg/bond_rows.h"
 #include "sabot/kernels/vec.h"
 
 #include <array>
@@ -37,7 +38,7 @@ public:
   static constexpr std::size_t look_ahead = 64;
 
   /** Row of neighbors, by global number, of every owned particle. */
-  using Rows = std::vector<std::vector<GlobalIndex>>;
+  using Rows = BondRows;
 
   /**
    * Rows of points closer than @p support in units of @p spacing per axis: by
@@ -75,7 +76,8 @@ public:
 
   /** Take over @p rows when ghosts are numbered. @p global_id of all local
       particles, owners of the ghosts. Collective. Rows [n_owned] ascend.
-      Weights are zero until ParticleApproximation::update(); origin remembers
+      Weights are not those of the new bonds before
+      ParticleApproximation::update(); origin remembers
       which bonds were there before, for carry(). Throws std::logic_error where
       a bond is there from one end only. */
   void connect(const Rows &rows, const std::vector<GlobalIndex> &global_id,
@@ -167,6 +169,9 @@ public:
   void reconnect();
 
 private:
+  /** reverse[] of bonds between owned particles. Throws std::logic_error where
+      the two ends do not agree. */
+  void reverse_owned();
   /** Bond of owned particle i to the neighbor with this global number.
       Throws std::logic_error where there is none: the two ends must agree. */
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;

@@ -33,6 +33,82 @@ struct ElasticResponse
   const double mu, lambda;
 };
 
+/** apply_linearized_body() with least squares, where M^-1 comes out of the sums
+    over bonds: with r = v_J - v_N, m_N the moment, Q_N = m_N M_N^-1,
+
+      L_N = [ sum phi r (x) dX ] M_N^-1,
+      m_N = V_N sigma(L_N) - k_N ( sum w r (x) dX - L_N sum w dX (x) dX ),
+      f_N = sum [ phi (Q_N + Q_J) - w (k_N L_N + k_J L_J) ] dX
+            + w (k_N + k_J) r.
+
+    Collective. */
+template <typename Form>
+void apply_linearized_moments(const SpgParts &body, Form &form,
+                              const AlignedVector<Vec> &motion,
+                              AlignedVector<Vec> &force)
+{
+  const std::size_t n = body.nodes.n_owned;
+  const BondList &bonds = body.bonds;
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const float *const weight = bonds.weight.data();
+  const float *const scaled_weight = bonds.scaled_weight.data();
+  const Vec *const X = body.fields.kernel_reference_position.data();
+  const Mat *const inverse_moment = body.approximation.moment_inverse.data();
+  const ElasticResponse stress(body.points.law());
+  struct Particle
+  {
+    Mat Q, kL; // by columns; k in the fourth lane of the first one of kL
+  };
+  AlignedVector<Particle> particle(body.nodes.size());
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    Mat by_weight = Mat::zero(), by_scaled = by_weight, second = by_weight;
+    const Vec Xi = X[i], vi = motion[i];
+    for (std::size_t b = bonds.begin(i), last = bonds.end(i); b < last; ++b)
+    {
+      const std::uint32_t j = neighbor[b];
+      const Vec dX = X[j] - Xi, r = motion[j] - vi;
+      add_outer(by_weight, r, weight[b] * dX);
+      if constexpr (Form::has_bond_forces)
+      {
+        const Vec w_dX = scaled_weight[b] * dX;
+        add_outer(by_scaled, r, w_dX);
+        add_outer(second, dX, w_dX);
+      }
+    }
+    const Mat L = by_weight * inverse_moment[i];
+    const double k = form.linear_stiffness(i);
+    Mat moment = body.fields.kernel_reference_volume[i] * stress(L);
+    if constexpr (Form::has_bond_forces)
+      moment = moment - k * (by_scaled - L * second);
+    particle[i] = {transpose(moment * inverse_moment[i]), k * transpose(L)};
+    particle[i].kL.row[0][3] = k;
+  }
+  body.exchange.update(particle.data());
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    Vec f = {};
+    const Mat Q = particle[i].Q, kL = particle[i].kL;
+    const Vec Xi = X[i], vi = motion[i];
+    for (std::size_t b = bonds.begin(i), last = bonds.end(i); b < last; ++b)
+    {
+      const std::uint32_t j = neighbor[b];
+      const Particle &there = particle[j];
+      const Vec dX = X[j] - Xi;
+      f += multiply_columns(Q + there.Q, weight[b] * dX);
+      if constexpr (Form::has_bond_forces)
+      {
+        const Mat both = kL + there.kL;
+        f += scaled_weight[b] *
+             (both.row[0][3] * (motion[j] - vi) - multiply_columns(both, dX));
+      }
+    }
+    f[3] = 0.; // of the stiffness
+    force[i] = f;
+  }
+  form.add_linearized(body, motion, force);
+}
+
 /**
  * f = -K v of the body at rest in the configuration of the last kernel update,
  *
@@ -66,9 +142,11 @@ void apply_linearized_body(const SpgParts &body, Form &form,
   // First what every particle's strain does to it, then, with that of the
   // neighbors, their forces: the step itself for a small motion, where it
   // comes down to sums over bonds with constant factors.
+  const ParticleApproximation &functions = body.approximation;
+  if (!functions.stores_gradients())
+    return apply_linearized_moments(body, form, motion, force);
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
-  const ParticleApproximation &functions = body.approximation;
   const Vec *const X = body.fields.kernel_reference_position.data();
   const double *const volume = body.fields.kernel_reference_volume.data();
   const ElasticResponse stress(body.points.law());
@@ -78,12 +156,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
     double stiffness;
   };
   AlignedVector<Particle> particle(body.nodes.size());
-  AlignedVector<Mat> inverse_moment(functions.moment_inverse);
-  inverse_moment.resize(body.nodes.size());
-  body.exchange.update(inverse_moment.data());
-  const auto g = [&](const std::size_t i, const std::size_t j,
-                     const std::size_t bond, const double weight)
-  { return functions.gradient(bond, weight, inverse_moment[i], X[j] - X[i]); };
+  const Vec *const g = functions.shape_gradient.data();
   for (std::size_t i = 0; i < n; ++i)
   {
     Mat L = Mat::zero();
@@ -91,7 +164,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
     {
       const std::uint32_t j = bonds.neighbor[b];
       const Vec relative = motion[j] - motion[i];
-      add_outer(L, relative, g(i, j, b, bonds.weight[b]));
+      add_outer(L, relative, g[b]);
     }
     Mat moment = volume[i] * stress(L);
     const double stiffness = form.linear_stiffness(i);
@@ -111,8 +184,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
-      f += particle[i].moment * g(i, j, b, bonds.weight[b]) -
-           particle[j].moment * g(j, i, bonds.reverse[b], bonds.weight[b]);
+      f += particle[i].moment * g[b] - particle[j].moment * g[bonds.reverse[b]];
       if constexpr (Form::has_bond_forces)
       {
         const Vec dX = X[j] - X[i], relative = motion[j] - motion[i];

@@ -58,9 +58,10 @@ public:
   void calibrate(const SpgParts &body, Stabilization &form,
                  const std::size_t step_number, const bool is_first,
                  MPI_Comm communicator);
-  /** Whether the last calibration is old, or the bound itself has moved.
-      Collective. Old: 300 steps. Moved: the least bound differs by 5 % from
-      that of the last calibration. */
+  /** Whether the factor decides and the last calibration is old, or the bound
+      itself has moved. Collective. Decides: an intact particle has the least
+      bound of all. Old: 300 steps. Moved: that bound differs by 5 % from the
+      least one of intact particles at the last calibration. */
   bool calibration_is_due(const SpgParts &body, const std::size_t step_number,
                           MPI_Comm communicator) const;
 
@@ -79,13 +80,18 @@ public:
   void list_memory(MemoryTable &table) const { table.add("stable steps", step); }
 
 private:
-  double least_bound(const SpgParts &body, MPI_Comm communicator) const;
+  /** Least bounds [s], without the factor; the largest number for none. */
+  struct Bounds
+  {
+    double intact, cracked;
+  };
+  Bounds least_bounds(const SpgParts &body, MPI_Comm communicator) const;
 
   std::vector<double> step; // [s]
   double factor = 1.;       // proven part by which the bound is too short
   double initial_factor = std::numeric_limits<double>::max();
   std::size_t last_calibration = 0; // step
-  double calibrated_bound = 0.;     // least bound, at the last calibration [s]
+  double calibrated_bound = 0.; // least intact one, of the last calibration [s]
 };
 
 /** Largest frequency of the linearized body at rest [rad/s] by @p n Lanczos

@@ -4,6 +4,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/pack.h"
 #include "sabot/kernels/principal.h"
 
 #include <algorithm>
@@ -18,6 +19,69 @@ namespace
 constexpr double lost_fraction = 0.15;
 /** Fewer bonds than this never span space. */
 constexpr std::size_t least_bonds = 4;
+
+/** Bonds of one particle: offsets in space and in the space of the kernels of
+    both ends, then weights, four at a time. Every row starts a pack of its own,
+    so that the bits do not depend on what stands before it. */
+template <typename Kernel>
+class RowWeights
+{
+public:
+  void start(const std::size_t n_bonds)
+  {
+    n = n_bonds;
+    const std::size_t n_padded = (n + n_lanes - 1) / n_lanes * n_lanes;
+    if (dX.size() < n_padded)
+    {
+      for (AlignedVector<Vec> *const offsets : {&dX, &here, &there})
+        offsets->resize(n_padded);
+      for (AlignedVector<double> *const values : {&weight, &scaled, &square})
+        values->resize(n_padded);
+    }
+    // Lanes without a bond: any numbers that are never infinite.
+    for (std::size_t b = n; b < n_padded; ++b)
+      dX[b] = here[b] = there[b] = vec(1., 1., 1.);
+  }
+  void set(const std::size_t b, const Vec offset, const Mat &here_columns,
+           const Mat &there_columns)
+  {
+    dX[b] = offset;
+    here[b] = multiply_columns(here_columns, offset);
+    there[b] = multiply_columns(there_columns, offset);
+  }
+  /** w, w mean |xi|^2/|dX|^2 and w mean |xi|^2 of all bonds. */
+  void find()
+  {
+    const auto norm_square = [](const Pack v[3])
+    { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
+    for (std::uint32_t b = 0; b < n; b += n_lanes)
+    {
+      const std::uint32_t lanes[n_lanes] = {b, b + 1, b + 2, b + 3};
+      Pack xi[3], xi_there[3], offset[3];
+      gather(here.data(), lanes, xi);
+      gather(there.data(), lanes, xi_there);
+      gather(dX.data(), lanes, offset);
+      // As stored, which makes the functions exact for linear fields.
+      const Pack w = to_double(to_float(
+                     0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there)))),
+                 mean = 0.5 * w * (norm_square(xi) + norm_square(xi_there)),
+                 distance = norm_square(offset);
+      // Loose particles on an axis of symmetry may be pressed onto each other.
+      const Pack one = {1., 1., 1., 1.}, zero = {};
+      store_pack(&weight[b], w);
+      store_pack(&square[b], mean);
+      store_pack(&scaled[b], distance > 0.
+                                 ? mean / (distance > 0. ? distance : one)
+                                 : zero);
+    }
+  }
+
+  AlignedVector<Vec> dX, here, there;           // [m], xi by both kernels
+  AlignedVector<double> weight, scaled, square; // [-], [1/m^2], [-]
+
+private:
+  std::size_t n = 0;
+};
 } // namespace
 
 ParticleApproximation::ParticleApproximation(const SpgOptions &options)
@@ -64,29 +128,30 @@ void ParticleApproximation::find_moments(BondList &bonds,
     intact_eigenvalue.resize(n);
     intact_spread.resize(n);
   }
-  std::vector<Mat> kernel_inverse(kernel.size());
+  AlignedVector<Mat> to_kernel(kernel.size()); // H^-1 by columns
   for (std::size_t i = 0; i < kernel.size(); ++i)
-    kernel_inverse[i] = inverse(kernel[i]);
+    to_kernel[i] = transpose(inverse(kernel[i]));
+  RowWeights<Kernel> row;
   for (std::size_t i = 0; i < n; ++i)
   {
+    const std::size_t first = bonds.begin(i), n_bonds = bonds.n_bonds(i);
+    const Mat here = to_kernel[i];
+    row.start(n_bonds);
+    for (std::size_t b = 0; b < n_bonds; ++b)
+    {
+      const std::uint32_t j = bonds.neighbor[first + b];
+      row.set(b, X[j] - X[i], here, to_kernel[j]);
+    }
+    row.find();
+    std::copy_n(row.weight.begin(), n_bonds, bonds.weight.begin() + first);
+    std::copy_n(row.scaled.begin(), n_bonds,
+                bonds.scaled_weight.begin() + first);
     Mat M = Mat::zero();
     double sum = 0.;
-    const Mat H_inverse = kernel_inverse[i];
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    for (std::size_t b = 0; b < n_bonds; ++b)
     {
-      const std::uint32_t j = bonds.neighbor[b];
-      const Vec dX = X[j] - X[i];
-      const Vec xi = H_inverse * dX, xi_there = kernel_inverse[j] * dX;
-      // As stored, which makes the functions exact for linear fields.
-      const double w = bonds.weight[b] =
-          0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there));
-      const double square = 0.5 * w * (norm_square(xi) + norm_square(xi_there));
-      // Loose particles on an axis of symmetry may be pressed onto each other.
-      const double distance_square = norm_square(dX);
-      bonds.scaled_weight[b] =
-          distance_square > 0. ? square / distance_square : 0.;
-      sum += square;
-      add_outer(M, w * xi, xi);
+      sum += row.square[b];
+      add_outer(M, row.weight[b] * row.here[b], row.here[b]);
     }
     spread[i] = sum;
     if (intact || (!has_grown.empty() && has_grown[i]))
@@ -97,10 +162,10 @@ void ParticleApproximation::find_moments(BondList &bonds,
     }
     int n_damped = 3;
     const Mat inverse_moment =
-        bonds.n_bonds(i) < least_bonds
+        n_bonds < least_bonds
             ? Mat::zero()
             : damped_inverse(M, lost_fraction * intact_eigenvalue[i], n_damped);
-    moment_inverse[i] = transpose(H_inverse) * inverse_moment * H_inverse;
+    moment_inverse[i] = here * inverse_moment * transpose(here);
     // Nor is a crack that has opened healed before it closes: the pressure goes
     // by the volume, and would spring up.
     lost_direction[i] = n_damped > 0 || (lost_direction[i] &&

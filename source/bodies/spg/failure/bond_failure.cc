@@ -112,11 +112,11 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
   return any;
 }
 
-bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
-                         const GhostExchange &exchange)
+void BondFailure::count(const NodalState &nodes, const BondList &bonds,
+                        const GhostExchange &exchange)
 {
   if (!criterion->can_be_met())
-    return false;
+    return;
   // Updates without a look before them find no marks.
   is_marked.resize(bonds.capacity(), 0);
   crumbles.resize(nodes.n_owned, 0);
@@ -135,9 +135,15 @@ bool BondFailure::remove(const NodalState &nodes, BondList &bonds,
       if (is_marked[b] && remembers_pairs)
         failed_pairs[i].push_back(nodes.global_id[j]);
     }
+  crumbles.clear();
+}
+
+bool BondFailure::remove(BondList &bonds)
+{
+  if (!criterion->can_be_met())
+    return false;
   const bool has_changed = bonds.remove(is_marked);
   is_marked.clear();
-  crumbles.clear();
   return has_changed;
 }
 

@@ -4,9 +4,13 @@
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
-#include "sabot/kernels/point_buckets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace sabot
 {
@@ -42,6 +46,166 @@ AlignedVector<Crumb> gather_crumbs(const NodalState &nodes,
             [](const Crumb &a, const Crumb &b) { return a.id < b.id; });
   return all;
 }
+/** Crumbs in the order of the cubes of edge @p reach [m] in which they lie.
+    Cubes are numbered from the lowest corner, x first, so that those beside one
+    along x are one stretch of the list, and where it is goes up from cube to
+    cube: a search without tables. */
+class SortedCrumbs
+{
+public:
+  SortedCrumbs(const AlignedVector<Crumb> &crumbs, const double reach)
+      : reach(reach), order(crumbs.size())
+  {
+    Vec low = {1e300, 1e300, 1e300, 0.};
+    for (const Crumb &crumb : crumbs)
+      for (int d = 0; d < 3; ++d)
+        low[d] = std::min(low[d], crumb.x[d]);
+    for (std::size_t k = 0; k < crumbs.size(); ++k)
+    {
+      // From 1 on; farther than a million cubes all are in the last one.
+      std::int64_t cube = 0;
+      for (int d = 2; d >= 0; --d)
+      {
+        const double from_low = (crumbs[k].x[d] - low[d]) / reach;
+        cube = (cube << bits) +
+               static_cast<std::int64_t>(1. + std::min(from_low, 1e6));
+      }
+      order[k] = {cube, static_cast<std::uint32_t>(k)};
+    }
+    std::sort(order.begin(), order.end());
+    for (int d = 0; d < 3; ++d)
+      x[d].resize(order.size());
+    for (std::size_t place = 0; place < order.size(); ++place)
+      for (int d = 0; d < 3; ++d)
+        x[d][place] = crumbs[order[place].second].x[d];
+  }
+
+  /** Call @p visit(k, near, n) for every crumb k with the n crumbs closer to it
+      than the reach, itself among them, in no order. */
+  template <typename Visit>
+  void for_each(const Visit &visit) const
+  {
+    std::size_t first[9] = {}, last[9] = {};
+    std::vector<std::uint32_t> near;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end)
+    {
+      const std::int64_t cube = order[begin].first;
+      while (end < order.size() && order[end].first == cube)
+        ++end;
+      std::size_t n_candidates = 0;
+      for (int side = 0; side < 9; ++side)
+      {
+        const std::int64_t middle =
+            cube + (side % 3 - 1) * step(1) + (side / 3 - 1) * step(2);
+        advance(first[side], middle - 1);
+        last[side] = std::max(last[side], first[side]);
+        advance(last[side], middle + 2);
+        n_candidates += last[side] - first[side];
+      }
+      near.resize(n_candidates);
+      for (std::size_t place = begin; place < end; ++place)
+      {
+        std::size_t n = 0;
+        for (int side = 0; side < 9; ++side)
+          n = collect(place, first[side], last[side], near.data(), n);
+        visit(order[place].second, near.data(), n);
+      }
+    }
+  }
+
+private:
+  static constexpr int bits = 21;
+  /** Between cubes that are neighbors along y (1) or z (2). */
+  static std::int64_t step(const int axis)
+  {
+    return std::int64_t(1) << bits * axis;
+  }
+  /** To the first crumb in this cube or behind it. */
+  void advance(std::size_t &place, const std::int64_t cube) const
+  {
+    while (place < order.size() && order[place].first < cube)
+      ++place;
+  }
+  /** Append those of [first, last) that are near to @p near, which has n. */
+  std::size_t collect(const std::size_t place, const std::size_t first,
+                      const std::size_t last, std::uint32_t *const near,
+                      std::size_t n) const
+  {
+    const double x0 = x[0][place], y0 = x[1][place], z0 = x[2][place];
+    for (std::size_t k = first; k < last; ++k)
+    {
+      const double dx = x[0][k] - x0, dy = x[1][k] - y0, dz = x[2][k] - z0;
+      near[n] = order[k].second;
+      n += dx * dx + dy * dy + dz * dz < reach * reach;
+    }
+    return n;
+  }
+
+  const double reach;
+  std::vector<std::pair<std::int64_t, std::uint32_t>> order; // cube, number
+  std::vector<double> x[3];                                  // in this order
+};
+
+/** Pairs of crumbs that are near each other, of this rank's ones. Row by row of
+    the nodes, crumbs by number: where every crumb tells its neighbors of itself
+    in the order of numbers, rows ascend without sorting. */
+class NearCrumbs
+{
+public:
+  NearCrumbs(const AlignedVector<Crumb> &all, const double reach,
+             const NodalState &nodes)
+      : start(nodes.n_owned + 1, 0)
+  {
+    constexpr std::uint32_t not_owned = 0xffffffffu;
+    const NumberIndex place(nodes.global_id.data(), nodes.n_owned);
+    std::vector<std::uint32_t> local(all.size(), not_owned);
+    for (std::size_t k = 0; k < all.size(); ++k)
+    {
+      const std::size_t i = place(all[k].id);
+      if (i < nodes.n_owned)
+        local[k] = i;
+    }
+    // By the neighbor: who has it. Then row by row.
+    std::vector<std::size_t> begin_of(all.size() + 1, 0);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs; // row, neighbor
+    SortedCrumbs(all, reach)
+        .for_each(
+            [&](const std::uint32_t k, const std::uint32_t *const near,
+                const std::size_t n)
+            {
+              if (local[k] == not_owned)
+                return;
+              for (std::size_t m = 0; m < n; ++m)
+                if (near[m] != k)
+                {
+                  pairs.push_back({local[k], near[m]});
+                  ++begin_of[near[m] + 1];
+                  ++start[local[k] + 1];
+                }
+            });
+    std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::uint32_t> who(pairs.size());
+    std::vector<std::size_t> next(begin_of.begin(), begin_of.end() - 1);
+    for (const auto &[row, neighbor] : pairs)
+      who[next[neighbor]++] = row;
+    next.assign(start.begin(), start.end() - 1);
+    numbers.resize(pairs.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (std::size_t p = begin_of[k]; p < begin_of[k + 1]; ++p)
+        numbers[next[who[p]]++] = all[k].id;
+  }
+  /** Global numbers of those near owned particle @p i, ascending. */
+  const GlobalIndex *begin(const std::size_t i) const
+  {
+    return numbers.data() + start[i];
+  }
+  const GlobalIndex *end(const std::size_t i) const { return begin(i + 1); }
+
+private:
+  std::vector<std::size_t> start;
+  std::vector<GlobalIndex> numbers;
+};
 } // namespace
 
 BondList::Rows renew_crumbled_neighbors(const NodalState &nodes,
@@ -50,28 +214,19 @@ BondList::Rows renew_crumbled_neighbors(const NodalState &nodes,
                                         const LagrangianKernel &kernel,
                                         MPI_Comm communicator)
 {
-  const AlignedVector<Crumb> all = gather_crumbs(nodes, failure, communicator);
-  const double reach = kernel.support() * kernel.mean_spacing();
-  PointBuckets buckets(reach);
-  for (std::size_t k = 0; k < all.size(); ++k)
-    buckets.add(all[k].x, k);
-  BondList::Rows rows(nodes.n_owned);
+  const NearCrumbs near(gather_crumbs(nodes, failure, communicator),
+                        kernel.support() * kernel.mean_spacing(), nodes);
+  BondList::Rows rows;
+  rows.reserve(nodes.n_owned, bonds.capacity());
+  std::vector<GlobalIndex> kept;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
+    kept.clear();
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (failure.is_cohesive(i, bonds.neighbor[b]))
-        rows[i].push_back(nodes.global_id[bonds.neighbor[b]]);
-    if (!failure.has_crumbled(i))
-      continue;
-    const Vec x = nodes.position[i];
-    buckets.for_near(x,
-                     [&](const std::size_t k)
-                     {
-                       if (all[k].id != nodes.global_id[i] &&
-                           norm_square(all[k].x - x) < reach * reach)
-                         rows[i].push_back(all[k].id);
-                     });
-    std::sort(rows[i].begin(), rows[i].end());
+      if (!failure.has_failed_now(b) &&
+          failure.is_cohesive(i, bonds.neighbor[b]))
+        kept.push_back(nodes.global_id[bonds.neighbor[b]]);
+    rows.merge_and_end_row(kept, near.begin(i), near.end(i));
   }
   return rows;
 }

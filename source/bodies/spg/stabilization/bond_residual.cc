@@ -242,6 +242,8 @@ void BondResidual::begin_kernel_update(const SpgParts &body)
   const BondList &bonds = body.bonds;
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
+    if (factor[i] == 1.) // most have not yielded
+      continue;
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       residual[b] = store_bond(factor[i] * load(residual[b]));
     factor[i] = 1.;
@@ -293,11 +295,17 @@ double BondResidual::held_energy(const SpgParts &body,
                                  const std::size_t i) const
 {
   const BondList &bonds = body.bonds;
-  double square = 0.;
+  if (stiffness[i] == 0.)
+    return 0.;
+  Vec square = {};
   for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    square += bonds.scaled_weight[b] * norm_square(load(residual[b]));
+  {
+    const Vec e = load(residual[b]);
+    square += bonds.scaled_weight[b] * e * e;
+  }
   const double theta = factor[i];
-  return 0.5 * stiffness[i] * theta * theta * square;
+  return 0.5 * stiffness[i] * theta * theta *
+         (square[0] + square[1] + square[2]);
 }
 
 void BondResidual::add_row_sums(const SpgParts &body,

@@ -69,12 +69,22 @@ public:
   bool find(const NodalState &nodes, const BondList &bonds,
             const ParticleFields &fields, const MaterialPoints &points,
             const GhostExchange &exchange, MPI_Comm communicator);
-  /** Remove the bonds that the last find() marked and count them; arrays
-      over bonds must then be carried over. Collective. @return whether the
-      list has changed, the same on all ranks. Each end counts its own, so a
-      bond counts twice in the sum of n_failed. */
-  bool remove(const NodalState &nodes, BondList &bonds,
-              const GhostExchange &exchange);
+  /** Count the bonds that the last find() marked, and whose metal has crumbled
+      by that. Collective. Each end counts its own, so a bond counts twice in
+      the sum of n_failed. They stay in the list until remove(), or until rows
+      come that leave them out, and then forget_marks(). */
+  void count(const NodalState &nodes, const BondList &bonds,
+             const GhostExchange &exchange);
+  /** Remove them from the list; arrays over bonds must then be carried over.
+      Collective. @return whether the list has changed, the same on all ranks.
+   */
+  bool remove(BondList &bonds);
+  /** Whether this bond of the list is one of them. */
+  bool has_failed_now(const std::size_t bond) const
+  {
+    return !is_marked.empty() && is_marked[bond];
+  }
+  void forget_marks() { is_marked.clear(); }
   /** There are other ghosts; n_local with them. Collective where particles may
       crumble. */
   void renew_ghosts(const GhostExchange &exchange, const std::size_t n_local);

@@ -15,8 +15,9 @@ struct NodalState;
  * Rows of neighbors, ascending global numbers [n_owned], in which the bonds
  * between crumbled particles are those of now: pairs closer than the support
  * of an undeformed kernel, normalized support times the mean spacing [m]. All
- * other bonds are as they were. Collective; an all-gather of 64 bytes per
- * crumbled particle of the body, buckets of one support.
+ * other bonds are as they were, without those that have failed now.
+ * Collective; an all-gather of 64 bytes per
+ * crumbled particle of the body, cubes of one support.
  *
  * Metal without cohesion has no memory of its neighbors: a list of the start
  * would lose them as pieces slide on, and the volume between them.

@@ -1,0 +1,211 @@
+// What a kernel update finds anew: rows, neighbors of crumbled metal, steps.
+#include "sabot/base/choice.h"
+#include "sabot/bodies/spg/bond_rows.h"
+#include "sabot/bodies/spg/stabilization/stabilization.h"
+#include "sabot/bodies/spg/stable_step.h"
+#include "verification/balance.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace
+{
+using namespace sabot;
+
+TEST(KernelUpdate, places_of_global_numbers)
+{
+  std::mt19937 random(1);
+  for (const GlobalIndex gap : {1, 2, 7, 1000, 1000000000})
+    for (const std::size_t n : {0, 1, 2, 50, 1000})
+    {
+      std::uniform_int_distribution<GlobalIndex> step(1, gap);
+      std::vector<GlobalIndex> numbers;
+      GlobalIndex last = 13;
+      for (std::size_t k = 0; k < n; ++k)
+        numbers.push_back(last += step(random));
+      const NumberIndex place(numbers.data(), n);
+      for (std::size_t k = 0; k < n; ++k)
+        ASSERT_EQ(place(numbers[k]), k);
+      for (int trial = 0; trial < 200; ++trial)
+      {
+        const GlobalIndex j =
+            std::uniform_int_distribution<GlobalIndex>(0, last + 9)(random);
+        const auto found = std::lower_bound(numbers.begin(), numbers.end(), j);
+        const bool is_there = found != numbers.end() && *found == j;
+        ASSERT_EQ(place(j), is_there ? found - numbers.begin() : n);
+      }
+    }
+}
+
+TEST(KernelUpdate, rows_are_sorted_and_merged)
+{
+  BondRows rows;
+  for (const GlobalIndex j : {5, 3, 5, 1})
+    rows.add(j);
+  rows.sort_and_end_row();
+  rows.end_row();
+  const GlobalIndex more[] = {2, 9};
+  rows.merge_and_end_row({1, 4}, more, more + 2);
+  ASSERT_EQ(rows.size(), 3u);
+  const std::vector<std::vector<GlobalIndex>> expected = {
+      {1, 3, 5}, {}, {1, 2, 4, 9}};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(std::vector<GlobalIndex>(rows[i].begin(), rows[i].end()),
+              expected[i]);
+}
+
+/** A block of which a share of the particles has crumbled, at random, and been
+    thrown about: by a fifth of a spacing, a few far away. */
+struct CrumbledBlock
+{
+  World world;
+  SpgBody *body;
+  CrumbledBlock(const double share, const unsigned int seed,
+                const std::array<double, 3> &size = {{7e-3, 6e-3, 5e-3}})
+  {
+    SpgOptions options;
+    options.set_critical_plastic_strain(0.45);
+    options.residual_strength = choose<ResidualStrength>("friction");
+    world.bodies.push_back(
+        std::make_unique<SpgBody>("block", 0, perturbed_cloud(size, 1e-3, 0.1),
+                                  hardening_aluminum(), options));
+    world.distribute();
+    body = static_cast<SpgBody *>(world.bodies[0].get());
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(-1., 1.);
+    NodalState &n = body->nodes();
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+    {
+      const bool crumbles = 0.5 + 0.5 * number(random) < share;
+      body->set_state("effective plastic strain", i, crumbles ? 1. : 0.);
+      n.position[i] = 1.05 * n.reference_position[i];
+      if (crumbles)
+        for (int d = 0; d < 3; ++d)
+          n.position[i][d] += 0.2e-3 * number(random);
+      if (crumbles && number(random) > 0.95)
+        n.position[i][i % 3] += 1e4 * number(random);
+    }
+    body->update_ghosts();
+    EXPECT_TRUE(body->update_topology(5, 0.));
+  }
+};
+
+TEST(KernelUpdate, crumbled_neighbors_are_those_within_the_support)
+{
+  for (const double share : {0.02, 0.3, 1.})
+  {
+    CrumbledBlock block(share, 7);
+    const SpgParts &rooms = block.body->rooms();
+    const NodalState &n = rooms.nodes;
+    const BondList &bonds = rooms.bonds;
+    const double reach = rooms.kernel.support() * rooms.kernel.mean_spacing();
+    std::size_t n_pairs = 0;
+    for (std::size_t i = 0; i < n.n_owned; ++i)
+    {
+      std::set<std::uint32_t> expected, found;
+      for (std::uint32_t j = 0; j < n.n_owned; ++j)
+        if (i != j && rooms.failure.has_crumbled(i) &&
+            rooms.failure.has_crumbled(j) &&
+            norm(n.position[j] - n.position[i]) < reach)
+          expected.insert(j);
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      {
+        const std::uint32_t j = bonds.neighbor[b];
+        EXPECT_EQ(bonds.neighbor[bonds.reverse[b]], i);
+        EXPECT_EQ(bonds.weight[bonds.reverse[b]], bonds.weight[b]);
+        EXPECT_TRUE(b == bonds.begin(i) || bonds.neighbor[b - 1] < j);
+        if (!rooms.failure.is_cohesive(i, j))
+          found.insert(j);
+      }
+      ASSERT_EQ(found, expected) << "share " << share << ", particle " << i;
+      n_pairs += expected.size();
+    }
+    EXPECT_TRUE(share < 0.1 || n_pairs > 100u);
+  }
+}
+
+TEST(KernelUpdate, stable_beside_cracks_without_measuring_anew)
+{
+  // Steps end at sqrt(3) over the largest frequency of an intact body, and the
+  // bound of what has cracks is at most 2 over it.
+  for (const double share : {0.01, 0.05, 0.2, 0.6, 1.})
+    for (const unsigned int seed : {1, 2, 3})
+    {
+      CrumbledBlock block(share, seed);
+      block.body->compute_forces(0., 0.);
+      EXPECT_LE(
+          block.body->stable_step().dt * block.body->largest_frequency(60), 2.)
+          << "share " << share << ", seed " << seed;
+    }
+}
+
+TEST(KernelUpdate, a_crack_that_holds_the_least_bound_asks_for_no_calibration)
+{
+  CrumbledBlock block(0.3, 1);
+  const SpgParts &rooms = block.body->rooms();
+  double least[2] = {1., 1.}; // intact, cracked
+  for (std::size_t i = 0; i < rooms.nodes.n_owned; ++i)
+  {
+    double &bound = least[rooms.failure.has_cracks(i)];
+    bound = std::min(bound, rooms.stable_step.data()[i]);
+  }
+  ASSERT_LT(2.1 * least[1], least[0]); // whatever the factor
+  EXPECT_FALSE(
+      rooms.stable_step.calibration_is_due(rooms, 100000, MPI_COMM_SELF));
+  // An intact body has it measured by age.
+  World world;
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "intact", 0, perturbed_cloud({{4e-3, 4e-3, 4e-3}}, 1e-3, 0.1), elastic(),
+      SpgOptions()));
+  world.distribute();
+  const SpgParts &intact = static_cast<SpgBody &>(*world.bodies[0]).rooms();
+  EXPECT_FALSE(
+      intact.stable_step.calibration_is_due(intact, 299, MPI_COMM_SELF));
+  EXPECT_TRUE(
+      intact.stable_step.calibration_is_due(intact, 300, MPI_COMM_SELF));
+}
+
+TEST(KernelUpdate, the_linearized_body_is_the_step_of_a_small_motion)
+{
+  using Approximation = SpgOptions::Approximation;
+  for (const char *const name : {"bond residual", "none"})
+    for (const Approximation functions :
+         {Approximation::least_squares, Approximation::convex_exponential})
+    {
+      World world;
+      SpgOptions options;
+      options.approximation = functions;
+      options.stabilization = choose<Stabilization>(name);
+      options.bulk_viscosity_linear = options.bulk_viscosity_quadratic = 0.;
+      world.bodies.push_back(std::make_unique<SpgBody>(
+          "block", 0, perturbed_cloud({{5e-3, 4e-3, 4e-3}}, 1e-3, 0.2),
+          elastic(), options));
+      world.distribute();
+      SpgBody &body = static_cast<SpgBody &>(*world.bodies[0]);
+      NodalState &n = body.nodes();
+      const std::unique_ptr<Stabilization> form = options.stabilization();
+      form->allocate(body.rooms());
+      form->carry_bonds(body.rooms().bonds);
+      form->renew_ghosts(body.rooms());
+      form->follow_functions(body.rooms());
+      std::mt19937 random(3);
+      std::uniform_real_distribution<double> number(-1., 1.);
+      AlignedVector<Vec> motion(n.size()), force(n.n_owned);
+      for (Vec &u : motion)
+        u = 1e-9 * vec(number(random), number(random), number(random));
+      form->apply_linearized(body.rooms(), motion, force);
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+        n.position[i] = n.reference_position[i] + motion[i];
+      body.update_ghosts();
+      body.compute_forces(0., 1e-9);
+      double scale = 0.;
+      for (const Vec f : force)
+        scale = std::max(scale, norm(f));
+      ASSERT_GT(scale, 0.);
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+        EXPECT_NEAR(norm(n.force[i] - force[i]) / scale, 0., 2e-5) << name;
+    }
+}
+} // namespace
