@@ -29,7 +29,9 @@ TEST(PointBuckets, all_that_are_near_come_once_and_those_of_a_cube_in_order)
         EXPECT_EQ(once.size(), found.size());
         for (std::size_t k = 0; k < points.size(); ++k)
           if (norm(points[k] - x) <= reach)
+          {
             EXPECT_EQ(once.count(k), 1u);
+          }
         for (std::size_t n = 1; n < found.size(); ++n)
         {
           const auto cube = [&](const std::size_t k)
@@ -40,7 +42,9 @@ TEST(PointBuckets, all_that_are_near_come_once_and_those_of_a_cube_in_order)
             return c;
           };
           if (cube(found[n]) == cube(found[n - 1]))
+          {
             EXPECT_LT(found[n - 1], found[n]);
+          }
         }
       }
     };
