@@ -2,6 +2,7 @@
 #include "sabot/bodies/memory_lists.h"
 
 #include "sabot/base/nodal_state.h"
+#include "sabot/bodies/body.h"
 #include "sabot/bodies/material_points.h"
 
 namespace sabot
@@ -25,5 +26,13 @@ void list_memory(const MaterialPoints &points, MemoryTable &table)
   table.add("viscous pressure", points.viscous_pressure);
   table.add("internal energy", points.internal_energy);
   table.add("plastic work", points.plastic_work);
+}
+
+const MemoryView *memory_view(const Body &body)
+{
+  if (const auto *const view =
+          dynamic_cast<const MemoryView *>(body.particles()))
+    return view;
+  return dynamic_cast<const MemoryView *>(body.faces());
 }
 } // namespace sabot

@@ -2,6 +2,7 @@
 #include "sabot/base/memory_table.h"
 #include "sabot/base/text.h"
 #include "sabot/base/timers.h"
+#include "sabot/bodies/memory_lists.h"
 #include "sabot/integrator/stepper.h"
 #include "sabot/simulation/plan.h"
 #include "sabot/simulation/run.h"
@@ -36,9 +37,9 @@ MemoryTable sum_over_ranks(MemoryTable table, MPI_Comm communicator)
 std::string to_text(const Body &body, const MemoryTable &table)
 {
   const double n = std::max<double>(1., body.n_items());
-  std::string out = body.name + ": " + formatted("%.0f ", n) +
-                    body.item_name() +
-                    "\n\n| array | bytes per item | MB |\n| --- | --- | --- |\n";
+  std::string out =
+      body.name + ": " + formatted("%.0f ", n) + body.item_name() +
+      "\n\n| array | bytes per item | MB |\n| --- | --- | --- |\n";
   double sum = 0.;
   const auto add = [&](const std::string &name, const double bytes)
   {
@@ -66,7 +67,7 @@ std::string plan_memory(Scene &scene, MPI_Comm communicator)
   stepper.update();
   std::string out;
   for (const auto &body : scene.bodies)
-    if (const auto *const view = dynamic_cast<const MemoryView *>(body.get()))
+    if (const MemoryView *const view = memory_view(*body))
     {
       MemoryTable table;
       view->list_memory(table);

@@ -1107,9 +1107,9 @@ class Scenes(unittest.TestCase):
                 rows = tables[name][1]
             elif len(cells) == 5 and cells[1] not in ("array", "---"):
                 rows[cells[1]] = (float(cells[2]), float(cells[3]))
-        self.assertEqual(len(tables), 2, done.stdout)
+        self.assertEqual(len(tables), 3, done.stdout)
         for n, rows in tables.values():
-            # A position is four numbers; ghosts there are none.
+            # A position is four numbers; there are no ghosts.
             self.assertAlmostEqual(rows["stress"][0] * n / 1e6,
                                    rows["stress"][1], delta=1e-3)
             self.assertGreaterEqual(rows["positions"][0], 32.)

@@ -5,6 +5,7 @@
 
 namespace sabot
 {
+class Body;
 class MaterialPoints;
 struct NodalState;
 
@@ -12,6 +13,8 @@ struct NodalState;
     memory. */
 void list_memory(const NodalState &nodes, MemoryTable &table);
 void list_memory(const MaterialPoints &points, MemoryTable &table);
+/** Where the memory of @p body goes; null for one that does not say. */
+const MemoryView *memory_view(const Body &body);
 } // namespace sabot
 
 #endif

@@ -27,8 +27,7 @@ struct BondVec
 inline Vec load(const BondVec &a)
 {
 #ifdef __AVX__
-  return _mm256_cvtps_pd(
-      _mm_maskload_ps(&a.x, _mm_set_epi32(0, -1, -1, -1)));
+  return _mm256_cvtps_pd(_mm_maskload_ps(&a.x, _mm_set_epi32(0, -1, -1, -1)));
 #else
   return vec(a.x, a.y, a.z);
 #endif

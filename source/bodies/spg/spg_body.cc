@@ -35,7 +35,7 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                                                             constraints,
                                                             work,
                                                             watch},
-      views(parts, surface, communicator)
+      views(parts, surface, *stabilization, rank_of, communicator)
 {
   if (options.grows)
     intake = std::make_unique<ParticleIntake>(ParticleIntake::Rooms{

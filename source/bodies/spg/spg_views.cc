@@ -1,12 +1,15 @@
 // An SPG body as couplings and reports see particles.
 #include "sabot/bodies/spg/spg_views.h"
 
+#include "sabot/bodies/memory_lists.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/fragments.h"
 #include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/stabilization/stabilization.h"
+#include "sabot/bodies/spg/stable_step.h"
 
 namespace sabot
 {
@@ -73,5 +76,20 @@ std::vector<GlobalIndex> SpgViews::piece_labels() const
 std::vector<Fragment> SpgViews::connected_pieces() const
 {
   return find_fragments(body.nodes, piece_labels(), communicator);
+}
+
+void SpgViews::list_memory(MemoryTable &table) const
+{
+  sabot::list_memory(body.nodes, table);
+  body.bonds.list_memory(table);
+  body.fields.list_memory(table);
+  body.approximation.list_memory(table);
+  form.list_memory(table);
+  sabot::list_memory(body.points, table);
+  body.failure.list_memory(table);
+  body.stable_step.list_memory(table);
+  body.kernel.list_memory(table);
+  surface.list_memory(table);
+  table.add("rank of every particle of the body", rank_of);
 }
 } // namespace sabot

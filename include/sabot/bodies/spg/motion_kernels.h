@@ -54,10 +54,10 @@ struct MotionViews
 
 /** Sums over the bonds of particle @p i, into place @p k of the batch: of
     (dx - dX) (x) g', by rows, and of g', where g' = phi dX with least squares
-    [m^2, m], from which M^-1 is taken out, else the stored g. Four bonds at once
-    by their places in the row, which ascends by global number, so that the bits
-    do not depend on the number of ranks. Needs the positions of ghosts up to
-    date. */
+    [m^2, m], from which M^-1 is taken out, else the stored g. Four bonds at
+   once by their places in the row, which ascends by global number, so that the
+   bits do not depend on the number of ranks. Needs the positions of ghosts up
+   to date. */
 template <bool stored_gradients>
 inline void sum_over_bonds(const MotionViews &in, const std::size_t i,
                            const std::size_t k, StepWork &out)
@@ -207,8 +207,8 @@ std::string describe_collapse(const MotionViews &in, const std::size_t i,
                               const double jacobian);
 
 /** Keep the smallest step and the first problem of the particles of @p range. A
-    particle is a problem from J_inc <= 0.05 on, or where J is no number. Of this
-    rank's particles; who needs the worst of all ranks reduces it. */
+    particle is a problem from J_inc <= 0.05 on, or where J is no number. Of
+   this rank's particles; who needs the worst of all ranks reduces it. */
 inline void watch_particles(const ParticleRange &range, const MotionViews &in,
                             const StepWork &work, StepWatch &watch)
 {
@@ -268,9 +268,8 @@ inline void find_viscosity_and_step(const MotionViews &in,
     const Pack h = pack_min(pack_cbrt(volume), 2. * c * step),
                rate = (l.m[0][0] + l.m[1][1] + l.m[2][2]) / dt,
                closing = pack_max(-rate, Pack{}),
-               density =
-                   in.density * gather_numbers(in.reference_volume, particle) /
-                   volume;
+               density = in.density *
+                         gather_numbers(in.reference_volume, particle) / volume;
     q = density * h * closing *
         (in.linear_viscosity * c + in.quadratic_viscosity * h * closing);
     // The bulk viscosity's damping ratio acts in compression only.
@@ -358,18 +357,16 @@ inline void follow_motion(const ParticleRange &range, const MotionViews &in,
   Pack change = in_all(watch.largest_change);
   for (std::size_t i = range.begin; i < range.end; i += n_lanes)
   {
-    const std::size_t k = i - range.begin,
-                      n = std::min(n_lanes, range.end - i);
+    const std::size_t k = i - range.begin, n = std::min(n_lanes, range.end - i);
     std::uint32_t particle[n_lanes];
     for (std::size_t l = 0; l < n_lanes; ++l)
       particle[l] = i + std::min(l, n - 1);
     for (std::size_t l = n; l < n_lanes; ++l)
       out.bond_sums[k + l] = out.bond_sums[k + n - 1];
-    change = pack_max(
-        follow_four<stored_gradients>(in, particle, k, n, out), change);
+    change = pack_max(follow_four<stored_gradients>(in, particle, k, n, out),
+                      change);
   }
-  watch.largest_change =
-      std::max({change[0], change[1], change[2], change[3]});
+  watch.largest_change = std::max({change[0], change[1], change[2], change[3]});
   watch_particles(range, in, out, watch);
 }
 } // namespace sabot

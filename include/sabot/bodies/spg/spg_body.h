@@ -48,7 +48,7 @@ namespace sabot
  * and 18 to 21 of Wu & Wu 2018 are followed for kernel update, weight and
  * failure (doc/theory/spg.md).
  */
-class SpgBody : public ScaledBody, public MemoryView
+class SpgBody : public ScaledBody
 {
 public:
   /** Throws InputError, by the entry: a failure criterion that the material
@@ -114,7 +114,6 @@ public:
   /** Bonds first, since arrays over bonds follow them; where neighbors are
       searched the list itself is state. Collective. */
   void visit_state(StateVisitor &visitor) override;
-  void list_memory(MemoryTable &table) const override;
 
   void set_internal_friction(const double coefficient) override
   {

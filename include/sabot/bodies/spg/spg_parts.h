@@ -67,7 +67,7 @@ struct StepWork : PointStepArrays<spg_batch_size>
       forces act on the kernel's reference configuration. By rows; det F_inc
       is not in it. */
   Mat inverse_transpose[spg_batch_size];
-  alignas(64) double step[spg_batch_size]; // stable one, as of now [s]
+  alignas(64) double step[spg_batch_size];     // stable one, as of now [s]
   double incremental_jacobian[spg_batch_size]; // det F_inc
   /** Of the first stage: (dx - dX) (x) g' and g', see sum_over_bonds(). The
       latter is what the particle's own stress acts on. */

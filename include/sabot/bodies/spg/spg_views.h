@@ -1,6 +1,7 @@
 #ifndef sabot_bodies_spg_spg_views_h
 #define sabot_bodies_spg_spg_views_h
 
+#include "sabot/base/memory_table.h"
 #include "sabot/bodies/body.h"
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/bodies/spg/spg_parts.h"
@@ -11,6 +12,8 @@
 
 namespace sabot
 {
+class Stabilization;
+
 /**
  * An SPG body as couplings and reports see particles: parts of a surface and of
  * a volume without faces and cells, what has come loose, and the pieces that
@@ -19,13 +22,15 @@ namespace sabot
  * Nothing is stored: each answer is made from the body's present state.
  * References only, so it must not outlive the body.
  */
-class SpgViews : public ParticleView, public FragmentView
+class SpgViews : public ParticleView, public FragmentView, public MemoryView
 {
 public:
   /** Of a body that outlives this. */
   SpgViews(const SpgParts &body, const ParticleSurface &surface,
+           const Stabilization &form, const std::vector<int> &rank_of,
            const MPI_Comm &communicator)
-      : body(body), surface(surface), communicator(communicator)
+      : body(body), surface(surface), form(form), rank_of(rank_of),
+        communicator(communicator)
   {
   }
 
@@ -53,10 +58,13 @@ public:
   /** Label of the piece of each owned particle, see fragment_labels().
       Collective. [n_owned]; pieces by bonds that have not failed. */
   std::vector<GlobalIndex> piece_labels() const override;
+  void list_memory(MemoryTable &table) const override;
 
 private:
   const SpgParts &body;
   const ParticleSurface &surface;
+  const Stabilization &form;
+  const std::vector<int> &rank_of;
   const MPI_Comm &communicator;
 };
 } // namespace sabot

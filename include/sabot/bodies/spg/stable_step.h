@@ -77,7 +77,10 @@ public:
   const double *data() const { return step.data(); }
 
   void visit_state(StateVisitor &visitor);
-  void list_memory(MemoryTable &table) const { table.add("stable steps", step); }
+  void list_memory(MemoryTable &table) const
+  {
+    table.add("stable steps", step);
+  }
 
 private:
   /** Least bounds [s], without the factor; the largest number for none. */

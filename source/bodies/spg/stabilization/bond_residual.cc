@@ -30,8 +30,8 @@ struct ResidualSums
         on_bond[d][c] += we[d] * dx[c];
     }
     old_trial += we[0] * e_old[0] + we[1] * e_old[1] + we[2] * e_old[2];
-    old_square += w * (e_old[0] * e_old[0] + e_old[1] * e_old[1] +
-                       e_old[2] * e_old[2]);
+    old_square +=
+        w * (e_old[0] * e_old[0] + e_old[1] * e_old[1] + e_old[2] * e_old[2]);
   }
 };
 
@@ -281,9 +281,8 @@ void BondResidual::end_kernel_update(const SpgParts &body,
                 X[bonds.neighbor[b]] - Xi);
     A = transpose(A * functions.moment_inverse[i]);
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      residual[b] =
-          store_bond(load(residual[b]) -
-                     multiply_columns(A, X[bonds.neighbor[b]] - Xi));
+      residual[b] = store_bond(load(residual[b]) -
+                               multiply_columns(A, X[bonds.neighbor[b]] - Xi));
     // Residuals that grew while they had no stiffness hold no energy.
     if (was_lost[i] && !functions.lost_direction[i])
       std::fill(residual.begin() + bonds.begin(i),
