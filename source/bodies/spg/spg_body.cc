@@ -119,7 +119,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   stable.allocate(n);
   stabilization->allocate(parts);
   renumber(rows);
-  BondList::Rows().swap(rows); // before the calibration's peak of memory
+  rows = BondList::Rows(); // before the calibration's peak of memory
 
   kernel.start(fields, node_exchange);
   fields.kernel_reference_position = nodal_state.position;
