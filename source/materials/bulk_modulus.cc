@@ -10,12 +10,12 @@ namespace sabot
 void BulkModulus::finish(const MaterialBatch &b, const Start &,
                          const double) const
 {
-  double mean[max_batch_points];
-  by_packs(b.n, b.jacobian, mean,
-           [this](const WidePack J) { return K * pack_log(J); });
-  for (int c = 0; c < 3; ++c)
-    for (std::size_t k = 0; k < b.n; ++k)
-      b.stress[c][k] += mean[k];
+  for (std::size_t k = 0; k < b.n; k += n_wide)
+  {
+    const WidePack mean = K * pack_log(load_wide(&b.jacobian[k]));
+    for (int c = 0; c < 3; ++c)
+      store_wide(&b.stress[c][k], load_wide(&b.stress[c][k]) + mean);
+  }
 }
 
 namespace

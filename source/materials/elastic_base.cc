@@ -6,8 +6,10 @@
 #include "sabot/base/output_fields.h"
 #include "sabot/base/parameters.h"
 #include "sabot/base/text.h"
+#include "sabot/kernels/pack_math.h"
 #include "sabot/materials/bulk_modulus.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sabot
@@ -76,7 +78,84 @@ std::vector<StateVariable> ElasticBase::state_variables() const
   return variables;
 }
 
+namespace
+{
+/** A batch of whole packs: the points of another, the last one again behind
+    them. A compiler may fuse other products in loops' last turns than in whole
+    registers; here no loop has such turns. */
+class WholePacks
+{
+public:
+  static constexpr std::size_t width = 8; // the widest pack's
+  WholePacks(const MaterialBatch &batch, const std::size_t n_states)
+      : whole(batch), n(batch.n)
+  {
+    whole.n = (n + width - 1) / width * width;
+    data.reserve((n_rows + n_states) * whole.n); // rows do not move
+    for (int c = 0; c < n_symmetric; ++c)
+    {
+      whole.stress[c] = copy(batch.stress[c]);
+      whole.strain_increment[c] = copy(batch.strain_increment[c]);
+    }
+    for (int c = 0; c < 9; ++c)
+      whole.deformation_gradient[c] = copy(batch.deformation_gradient[c]);
+    whole.jacobian = copy(batch.jacobian);
+    whole.extra_square = copy(batch.extra_square);
+    whole.viscous_pressure = copy(batch.viscous_pressure);
+    whole.return_factor = copy(batch.return_factor);
+    whole.plastic_work = copy(batch.plastic_work);
+    whole.stiffening = copy(batch.stiffening);
+    for (std::size_t s = 0; s < n_states; ++s)
+      states.push_back(copy(batch.states[s]));
+    whole.states = states.data();
+  }
+  void copy_back(const MaterialBatch &batch) const
+  {
+    for (int c = 0; c < n_symmetric; ++c)
+      std::copy_n(whole.stress[c], n, batch.stress[c]);
+    for (std::size_t s = 0; s < states.size(); ++s)
+      std::copy_n(states[s], n, batch.states[s]);
+    std::copy_n(whole.return_factor, n, batch.return_factor);
+    std::copy_n(whole.plastic_work, n, batch.plastic_work);
+    if (batch.stiffening)
+      std::copy_n(whole.stiffening, n, batch.stiffening);
+  }
+
+  MaterialBatch whole;
+
+private:
+  static constexpr std::size_t n_rows = 2 * n_symmetric + 9 + 6;
+  double *copy(const double *const row)
+  {
+    if (row == nullptr)
+      return nullptr;
+    const std::size_t begin = data.size();
+    data.insert(data.end(), row, row + n);
+    data.resize(begin + whole.n, row[n - 1]);
+    return &data[begin];
+  }
+
+  const std::size_t n;
+  std::vector<double> data;
+  std::vector<double *> states;
+};
+} // namespace
+
 void ElasticBase::update(const MaterialBatch &batch) const
+{
+  if (batch.n == 0)
+    return;
+  if (batch.n % WholePacks::width == 0)
+    return update_whole(batch);
+  std::size_t n_states = 0;
+  for (const StateVariable &variable : state_variables())
+    n_states += variable.is_tensor ? n_symmetric : 1;
+  WholePacks packs(batch, n_states);
+  update_whole(packs.whole);
+  packs.copy_back(batch);
+}
+
+void ElasticBase::update_whole(const MaterialBatch &batch) const
 {
   EquationOfState::Start start;
   eos->begin(batch, start);
@@ -90,18 +169,16 @@ void ElasticBase::update(const MaterialBatch &batch) const
 
 void ElasticBase::trial_deviator(const MaterialBatch &b) const
 {
-  const double two_G = 2. * G;
-  double *const *const s = b.stress;
-  const double *const *const e = b.strain_increment;
-#pragma GCC ivdep // arrays do not overlap
-  for (std::size_t k = 0; k < b.n; ++k)
+  for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.;
-    const double mean = (s[0][k] + s[1][k] + s[2][k]) / 3.;
-    for (int c = 0; c < 3; ++c)
-      s[c][k] += two_G * (e[c][k] - trace) - mean;
-    for (int c = 3; c < 6; ++c)
-      s[c][k] += two_G * e[c][k];
+    WidePack s[6], e[6];
+    load_wide(b.stress, k, s);
+    load_wide(b.strain_increment, k, e);
+    make_deviator(s);
+    make_deviator(e);
+    for (int c = 0; c < 6; ++c)
+      s[c] += 2. * G * e[c];
+    store_wide(b.stress, k, s);
   }
 }
 } // namespace sabot

@@ -1,5 +1,6 @@
 // Radial return for linear and tabulated hardening.
 #include "sabot/base/registry.h"
+#include "sabot/kernels/pack_math.h"
 #include "sabot/materials/laws.h"
 
 #include <algorithm>
@@ -69,56 +70,63 @@ double HardeningPlasticity::increment(const double q, const double eps,
 }
 
 template <bool kinematic>
+void HardeningPlasticity::relative_stress(const MaterialBatch &b,
+                                          const std::size_t k,
+                                          WidePack xi[6]) const
+{
+  load_wide(b.stress, k, xi);
+  for (int c = 0; kinematic && c < 6; ++c)
+    xi[c] -= load_wide(&b.state(1 + c)[k]);
+}
+
+template <bool kinematic>
 void HardeningPlasticity::return_deviator(const MaterialBatch &b) const
 {
   double *const eps = b.state(0);
-  double q[max_batch_points], d[max_batch_points], moving[max_batch_points];
-#pragma GCC ivdep // arrays do not overlap
-  for (std::size_t k = 0; k < b.n; ++k)
+  double q[max_batch_points], d[max_batch_points] = {},
+                              moving[max_batch_points] = {};
+  WidePack xi[6]; // deviator relative to the back stress
+  for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    double xi[6]; // deviator relative to the back stress
-    for (int c = 0; c < 6; ++c)
-      xi[c] = b.stress[c][k] - (kinematic ? b.state(1 + c)[k] : 0.);
-    q[k] =
-        std::sqrt(1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2] +
-                         2. * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5])) +
-                  b.extra_square[k]);
-    d[k] = moving[k] = 0.;
-    b.return_factor[k] = 1.;
-    b.plastic_work[k] = 0.;
+    relative_stress<kinematic>(b, k, xi);
+    store_wide(&q[k],
+               pack_sqrt(1.5 * square_of(xi) + load_wide(&b.extra_square[k])));
+    store_wide(&b.return_factor[k], splat<WidePack>(1.));
+    store_wide(&b.plastic_work[k], WidePack{});
   }
   bool any = false;
-  const double initial = pieces[0].stress;
   for (std::size_t k = 0; k < b.n; ++k)
-    // No yield stress is below the initial one but by a back stress, for which
-    // q is that about it.
-    if (q[k] > initial)
+    // About the back stress no yield stress is below the initial one.
+    if (q[k] > pieces[0].stress)
     {
       double hardening;
       d[k] = increment(q[k], eps[k], hardening);
       moving[k] = d[k] > 0. ? (1. - isotropic_fraction) * hardening / q[k] : 0.;
       any |= d[k] > 0.;
     }
-  if (!any)
-    return;
-#pragma GCC ivdep
-  for (std::size_t k = 0; k < b.n; ++k)
+  for (std::size_t k = 0; any && k < b.n; k += n_wide)
   {
-    const double scale = 1.5 * d[k] / std::max(q[k], smallest_stress);
-    // Plastic work with the stress at the end of the step.
-    double work = 0.;
+    relative_stress<kinematic>(b, k, xi);
+    const WidePack increment = load_wide(&d[k]),
+                   scale = 1.5 * increment /
+                           pack_max(load_wide(&q[k]),
+                                    splat<WidePack>(smallest_stress));
+    WidePack s[6];
+    load_wide(b.stress, k, s);
     for (int c = 0; c < 6; ++c)
     {
-      const double xi = b.stress[c][k] - (kinematic ? b.state(1 + c)[k] : 0.),
-                   s = b.stress[c][k] - 2. * G * scale * xi;
-      b.stress[c][k] = s;
+      s[c] -= 2. * G * scale * xi[c];
       if (kinematic)
-        b.state(1 + c)[k] += moving[k] * xi;
-      work += (c < 3 ? 1. : 2.) * s * scale * xi;
+        store_wide(&b.state(1 + c)[k], load_wide(&b.state(1 + c)[k]) +
+                                           load_wide(&moving[k]) * xi[c]);
     }
-    eps[k] += d[k];
-    b.plastic_work[k] = work;
-    b.return_factor[k] = 1. - 2. * G * scale;
+    store_wide(b.stress, k, s);
+    store_wide(&eps[k], load_wide(&eps[k]) + increment);
+    // With the stress at the end of the step.
+    store_wide(&b.plastic_work[k],
+               scale * (s[0] * xi[0] + s[1] * xi[1] + s[2] * xi[2] +
+                        2. * (s[3] * xi[3] + s[4] * xi[4] + s[5] * xi[5])));
+    store_wide(&b.return_factor[k], 1. - 2. * G * scale);
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include "sabot/base/output_fields.h"
 #include "sabot/base/registry.h"
-#include "sabot/kernels/stress_update.h"
 
 namespace sabot
 {
@@ -50,35 +49,43 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     return;
   const double *const eps = b.state(0), *const temperature = b.state(1);
   double *const damage = b.state(2);
-  std::size_t flowing[max_batch_points + 1], n = 0;
-  double d[max_batch_points + 1], triaxiality[max_batch_points];
+  std::size_t flowing[max_batch_points + n_wide], n = 0;
+  double d[max_batch_points + n_wide];
   for (std::size_t k = 0; k < b.n; ++k)
   {
     flowing[n] = k;
     d[n] = eps[k] - old_strain[k];
     n += d[n] > 0.;
   }
-  double rate[max_batch_points], T[max_batch_points];
-  // Melted points have no von Mises stress; the clamp takes the ratio.
-  const double smallest = 1e-12 * shear_modulus();
-  for (std::size_t i = 0; i < n; ++i)
+  // Whole packs, filled up with the last point.
+  double stress[6][max_batch_points], T[max_batch_points];
+  for (std::size_t i = 0; i < (n + n_wide - 1) / n_wide * n_wide; ++i)
   {
-    double s[6];
+    if (i >= n)
+    {
+      flowing[i] = flowing[n - 1];
+      d[i] = d[n - 1];
+    }
     for (int c = 0; c < 6; ++c)
-      s[c] = b.stress[c][flowing[i]];
-    triaxiality[i] =
-        (s[0] + s[1] + s[2]) / 3. / std::max(von_mises(s), smallest);
-    rate[i] = d[i] / b.dt;
+      stress[c][i] = b.stress[c][flowing[i]];
     T[i] = temperature[flowing[i]];
   }
+  // Melted points have no von Mises stress; the clamp takes the ratio.
+  const WidePack smallest = splat<WidePack>(1e-12 * shear_modulus());
   for (std::size_t i = 0; i < n; i += n_wide)
-    store_some(&T[i],
-               flow.fracture_strain(load_some(&triaxiality[i], n - i),
-                                    load_some(&rate[i], n - i),
-                                    load_some(&T[i], n - i)),
-               n - i);
+  {
+    WidePack s[6];
+    for (int c = 0; c < 6; ++c)
+      s[c] = load_wide(&stress[c][i]);
+    const WidePack mean = make_deviator(s),
+                   von_mises = pack_sqrt(1.5 * square_of(s)),
+                   increment = load_wide(&d[i]);
+    store_wide(&d[i], increment / flow.fracture_strain(
+                                      mean / pack_max(von_mises, smallest),
+                                      increment / b.dt, load_wide(&T[i])));
+  }
   for (std::size_t i = 0; i < n; ++i)
-    damage[flowing[i]] += d[i] / T[i];
+    damage[flowing[i]] += d[i];
 }
 
 namespace

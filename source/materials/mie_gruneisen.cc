@@ -14,18 +14,15 @@ namespace sabot
 {
 void MieGruneisen::begin(const MaterialBatch &b, Start &start) const
 {
-  const double *const *const e = b.strain_increment;
-  double *const *const s = b.stress;
-#pragma GCC ivdep // arrays do not overlap
-  for (std::size_t k = 0; k < b.n; ++k)
+  for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    const double mean = (s[0][k] + s[1][k] + s[2][k]) / 3.;
-    start.pressure[k] = -mean;
-    start.deviatoric_work[k] =
-        0.5 *
-        ((s[0][k] - mean) * e[0][k] + (s[1][k] - mean) * e[1][k] +
-         (s[2][k] - mean) * e[2][k] +
-         2. * (s[3][k] * e[3][k] + s[4][k] * e[4][k] + s[5][k] * e[5][k]));
+    WidePack s[6], e[6];
+    load_wide(b.stress, k, s);
+    load_wide(b.strain_increment, k, e);
+    store_wide(&start.pressure[k], -make_deviator(s));
+    store_wide(&start.deviatoric_work[k],
+               0.5 * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2] +
+                      2. * (s[3] * e[3] + s[4] * e[4] + s[5] * e[5])));
   }
 }
 
@@ -42,25 +39,23 @@ struct PointsOfPack
 PointsOfPack points_of(const MaterialBatch &b,
                        const EquationOfState::Start &start, const std::size_t k)
 {
-  const std::size_t n = b.n - k;
   WidePack s[n_symmetric], d[n_symmetric];
   for (int c = 0; c < n_symmetric; ++c)
   {
-    s[c] = load_some(&b.stress[c][k], n);
-    d[c] = load_some(&b.strain_increment[c][k], n);
+    s[c] = load_wide(&b.stress[c][k]);
+    d[c] = load_wide(&b.strain_increment[c][k]);
   }
   PointsOfPack points;
-  points.J = load_some(&b.jacobian[k], n);
+  points.J = load_wide(&b.jacobian[k]);
   const WidePack trace = d[0] + d[1] + d[2];
   const WidePack mid = points.J / (1. + 0.5 * trace); // at mid step over V_0
   points.change = mid * trace;
   const WidePack viscous =
-      b.viscous_pressure ? load_some(&b.viscous_pressure[k], n) : WidePack{};
-  points.work =
-      mid * (load_some(&start.deviatoric_work[k], n) +
-             0.5 * (s[0] * d[0] + s[1] * d[1] + s[2] * d[2]) + s[3] * d[3] +
-             s[4] * d[4] + s[5] * d[5]) -
-      (0.5 * load_some(&start.pressure[k], n) + viscous) * points.change;
+      b.viscous_pressure ? load_wide(&b.viscous_pressure[k]) : WidePack{};
+  points.work = mid * (load_wide(&start.deviatoric_work[k]) +
+                       0.5 * (s[0] * d[0] + s[1] * d[1] + s[2] * d[2]) +
+                       s[3] * d[3] + s[4] * d[4] + s[5] * d[5]) -
+                (0.5 * load_wide(&start.pressure[k]) + viscous) * points.change;
   return points;
 }
 } // namespace
@@ -74,7 +69,6 @@ void MieGruneisen::finish(const MaterialBatch &b, const Start &start,
                  largest = splat<WidePack>(0.9 / std::max(1., p.shock_slope));
   for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    const std::size_t n = b.n - k;
     const PointsOfPack points = points_of(b, start, k);
     const WidePack J = points.J, change = points.change;
     // eta, or its bound, where the curve goes on along its tangent.
@@ -85,13 +79,13 @@ void MieGruneisen::finish(const MaterialBatch &b, const Start &start,
     const WidePack tangent = K * (1. + p.shock_slope * eta) * (D * D * D);
     const WidePack hugoniot = K * eta * (D * D) + tangent * beyond;
     const WidePack cold = eta > zero ? hugoniot * (1. - 0.5 * g * eta) : K * mu;
-    const WidePack e = p.density * load_some(&energy[k], n) + points.work;
+    const WidePack e = p.density * load_wide(&energy[k]) + points.work;
     const WidePack pressure =
         (cold + g * e) / pack_max(1. + 0.5 * g * change, splat<WidePack>(0.1));
     const WidePack e_new = e - 0.5 * pressure * change;
-    store_some(&energy[k], e_new * (1. / p.density), n);
+    store_wide(&energy[k], e_new * (1. / p.density));
     for (int c = 0; c < 3; ++c)
-      store_some(&b.stress[c][k], load_some(&b.stress[c][k], n) - pressure, n);
+      store_wide(&b.stress[c][k], load_wide(&b.stress[c][k]) - pressure);
 
     if (!b.stiffening)
       continue;
@@ -103,7 +97,7 @@ void MieGruneisen::finish(const MaterialBatch &b, const Start &start,
                          0.5 * inside * hugoniot * (g + g_slope * eta)
                    : K * square;
     const WidePack modulus = J * (slope + g_slope * e_new + g * pressure);
-    store_some(&b.stiffening[k], (modulus + shear) * (1. / (K + shear)), n);
+    store_wide(&b.stiffening[k], (modulus + shear) * (1. / (K + shear)));
   }
 }
 

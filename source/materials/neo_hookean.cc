@@ -8,41 +8,33 @@
 
 namespace sabot
 {
-namespace
-{
-/** Components of F F^T of point @p k. */
-inline void left_cauchy_green(const double *const *F, const std::size_t k,
-                              double b[6])
-{
-  constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
-  for (int c = 0; c < 6; ++c)
-    b[c] = F[3 * row[c]][k] * F[3 * column[c]][k] +
-           F[3 * row[c] + 1][k] * F[3 * column[c] + 1][k] +
-           F[3 * row[c] + 2][k] * F[3 * column[c] + 2][k];
-}
-} // namespace
-
 void NeoHookean::update_deviator(const MaterialBatch &batch,
                                  Scratch &shear_ratio) const
 {
-  double factors[max_batch_points]; // J^(-5/3)
-  by_packs(batch.n, batch.jacobian, factors,
-           [](const WidePack J) { return pack_power(J, -5. / 3.); });
-#pragma GCC ivdep // arrays do not overlap
-  for (std::size_t k = 0; k < batch.n; ++k)
+  constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (std::size_t k = 0; k < batch.n; k += n_wide)
   {
-    double b[6];
-    left_cauchy_green(batch.deformation_gradient, k, b);
-    const double factor = factors[k], mean = (b[0] + b[1] + b[2]) / 3.;
+    WidePack F[9], b[6]; // b = F F^T
+    for (int c = 0; c < 9; ++c)
+      F[c] = load_wide(&batch.deformation_gradient[c][k]);
     for (int c = 0; c < 6; ++c)
-      batch.stress[c][k] = G * factor * (c < 3 ? b[c] - mean : b[c]);
-    batch.return_factor[k] = 1.;
-    batch.plastic_work[k] = 0.;
+    {
+      const WidePack *const f = &F[3 * row[c]], *const g = &F[3 * column[c]];
+      b[c] = f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
+    }
+    const WidePack factor = pack_power(load_wide(&batch.jacobian[k]), -5. / 3.);
     // The shear stiffness grows with the largest eigenvalue of b, which the
     // row sums bound (Gershgorin).
-    const double xy = std::abs(b[3]), yz = std::abs(b[4]), xz = std::abs(b[5]);
-    shear_ratio[k] =
-        factor * std::max({b[0] + xy + xz, b[1] + xy + yz, b[2] + yz + xz});
+    const WidePack xy = pack_max(b[3], -b[3]), yz = pack_max(b[4], -b[4]),
+                   xz = pack_max(b[5], -b[5]);
+    store_wide(&shear_ratio[k],
+               factor * pack_max(pack_max(b[0] + xy + xz, b[1] + xy + yz),
+                                 b[2] + yz + xz));
+    make_deviator(b);
+    for (int c = 0; c < 6; ++c)
+      store_wide(&batch.stress[c][k], G * factor * b[c]);
+    store_wide(&batch.return_factor[k], splat<WidePack>(1.));
+    store_wide(&batch.plastic_work[k], WidePack{});
   }
 }
 

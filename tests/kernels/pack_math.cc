@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <vector>
 
 namespace
 {
@@ -117,21 +116,6 @@ TEST(PackMath, lanes_do_not_see_each_other)
     mixed[i % n_wide] = y;
     EXPECT_EQ(pack_log(pack_max(mixed, splat<WidePack>(1e-9)))[i % n_wide],
               pack_log(splat<WidePack>(y))[0]);
-  }
-}
-
-TEST(PackMath, arrays_that_fill_no_pack)
-{
-  for (std::size_t n = 1; n < 2 * n_wide + 2; ++n)
-  {
-    std::vector<double> x(n), y(n + 1, -7.);
-    for (std::size_t k = 0; k < n; ++k)
-      x[k] = 0.5 + k;
-    by_packs(n, x.data(), y.data(),
-             [](const WidePack a) { return pack_log(a); });
-    for (std::size_t k = 0; k < n; ++k)
-      EXPECT_EQ(y[k], pack_log(splat<WidePack>(x[k]))[0]);
-    EXPECT_EQ(y[n], -7.);
   }
 }
 } // namespace

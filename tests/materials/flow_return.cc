@@ -1,8 +1,6 @@
 // The return of whole batches: right at every point, whatever else is in the
 // batch, and the same for a Flow that is written point by point.
-#include "sabot/materials/johnson_cook.h"
-#include "sabot/materials/steinberg_guinan.h"
-#include "sabot/materials/zerilli_armstrong.h"
+#include "sabot/materials/laws.h"
 #include "verification/metals.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +49,14 @@ struct Points
   }
   void update(const Material &law, const double dt)
   {
-    double *const states[2] = {eps, temperature};
+    std::vector<double *> states;
+    std::size_t n_other = 0;
+    for (const StateVariable &v : law.state_variables())
+      for (int c = 0; c < (v.is_tensor ? 6 : 1); ++c)
+        states.push_back(v.name == "effective plastic strain" ? eps
+                         : v.name == "temperature"            ? temperature
+                                                   : other[n_other++]);
+    const double none[max_batch_points] = {};
     MaterialBatch batch;
     batch.n = n;
     batch.dt = dt;
@@ -60,11 +65,15 @@ struct Points
       batch.stress[c] = stress[c];
       batch.strain_increment[c] = strain[c];
     }
+    // Simple shear and stretch, as good as any.
+    for (int c = 0; c < 9; ++c)
+      batch.deformation_gradient[c] = c % 4 == 0 ? jacobian : strain[c % 6];
     batch.jacobian = jacobian;
-    batch.states = states;
+    batch.states = states.data();
     batch.extra_square = extra;
     batch.return_factor = theta;
     batch.plastic_work = work;
+    batch.viscous_pressure = none;
     batch.stiffening = law.stiffens() ? stiffening : nullptr;
     law.update(batch);
   }
@@ -75,6 +84,7 @@ struct Points
   double eps[max_batch_points], temperature[max_batch_points];
   double theta[max_batch_points], work[max_batch_points],
       stiffening[max_batch_points];
+  double other[7][max_batch_points] = {}; // back stress, energy, damage
 };
 
 JohnsonCookParameters johnson_cook(const double m)
@@ -177,10 +187,9 @@ TEST(FlowReturn, finds_the_root_at_every_point)
   expect_roots(SteinbergGuinanFlow{steinberg()});
 }
 
-template <typename Flow>
-void expect_no_neighbors(const Flow &flow)
+void expect_no_neighbors(const std::string &name, const Material &law)
 {
-  const RateDependentPlasticity<Flow> law(aluminum(), flow, {}, {});
+  SCOPED_TRACE(name);
   for (const std::size_t n : {1, 5, 8, 31, 64})
   {
     const Points before(n, n);
@@ -196,15 +205,55 @@ void expect_no_neighbors(const Flow &flow)
       EXPECT_EQ(alone.temperature[0], together.temperature[k]);
       EXPECT_EQ(alone.theta[0], together.theta[k]);
       EXPECT_EQ(alone.work[0], together.work[k]);
+      for (int row = 0; row < 7; ++row)
+        EXPECT_EQ(alone.other[row][0], together.other[row][k]);
+      if (law.stiffens())
+      {
+        EXPECT_EQ(alone.stiffening[0], together.stiffening[k]);
+      }
     }
   }
 }
 
+template <typename Law, typename Parameters>
+void expect_no_neighbors(const std::string &name, const Parameters &parameters)
+{
+  for (const bool shocks : {false, true})
+    expect_no_neighbors(
+        name, Law(aluminum(), parameters,
+                  shocks ? std::make_shared<MieGruneisen>(
+                               mie_gruneisen_parameters("al6061-t6-eos"))
+                         : ElasticBase::Eos()));
+}
+
 TEST(FlowReturn, a_point_does_not_see_its_batch)
 {
-  expect_no_neighbors(JohnsonCookFlow{johnson_cook(1.34)});
-  expect_no_neighbors(ZerilliArmstrongFlow<true>{zerilli()});
-  expect_no_neighbors(SteinbergGuinanFlow{steinberg()});
+  JohnsonCookParameters damaged = johnson_cook(1.34);
+  damaged.has_damage = true;
+  damaged.D[0] = 0.1;
+  damaged.D[1] = 0.5;
+  damaged.D[2] = -1.5;
+  damaged.D[3] = 0.02;
+  HardeningParameters table;
+  table.table_strain = {0., 0.01, 0.1, 10.};
+  table.table_stress = {3e8, 3.5e8, 4e8, 9e8};
+  expect_no_neighbors<JohnsonCook>("Johnson-Cook", damaged);
+  expect_no_neighbors<HardeningPlasticity>("isotropic",
+                                           HardeningParameters{3e8, 1e9, 1.});
+  expect_no_neighbors<HardeningPlasticity>("mixed",
+                                           HardeningParameters{3e8, 1e9, 0.3});
+  expect_no_neighbors<HardeningPlasticity>("table", table);
+  const ThermalParameters thermal;
+  expect_no_neighbors("bcc",
+                      ZerilliArmstrongBcc(aluminum(),
+                                          ZerilliArmstrongFlow<true>{zerilli()},
+                                          thermal, {}));
+  expect_no_neighbors("Steinberg-Guinan",
+                      SteinbergGuinan(aluminum(),
+                                      SteinbergGuinanFlow{steinberg()}, thermal,
+                                      {}));
+  expect_no_neighbors("elastic", Elastic(aluminum()));
+  expect_no_neighbors("neo-Hookean", NeoHookean(aluminum()));
 }
 
 /** Ludwik's law with the rate of Cowper and Symonds, as one writes it down. */
@@ -238,6 +287,8 @@ struct PlainFlow
 TEST(FlowReturn, a_flow_may_be_written_point_by_point)
 {
   expect_roots(OneByOne<PlainFlow>{PlainFlow()});
-  expect_no_neighbors(OneByOne<PlainFlow>{PlainFlow()});
+  expect_no_neighbors(
+      "one by one", RateDependentPlasticity<OneByOne<PlainFlow>>(
+                        aluminum(), OneByOne<PlainFlow>{PlainFlow()}, {}, {}));
 }
 } // namespace

@@ -164,37 +164,48 @@ inline WidePack pack_power(const WidePack a, const double b)
   return pack_exp(b * pack_log(a));
 }
 
-/** n_wide numbers from @p p on, of which @p n are there: the last one again
-    in place of others. Any address. */
-inline WidePack load_some(const double *const p, const std::size_t n)
+/** n_wide numbers from @p p on, at any address. */
+inline WidePack load_wide(const double *const p)
 {
   WidePack a;
-  if (n >= n_wide)
-    std::memcpy(&a, p, sizeof(a));
-  else
-    for (std::size_t i = 0; i < n_wide; ++i)
-      a[i] = p[i < n ? i : n - 1];
+  std::memcpy(&a, p, sizeof(a));
   return a;
 }
 
-/** And back, those that are there. */
-inline void store_some(double *const p, const WidePack a, const std::size_t n)
+/** And back. */
+inline void store_wide(double *const p, const WidePack a)
 {
-  if (n >= n_wide)
-    std::memcpy(p, &a, sizeof(a));
-  else
-    for (std::size_t i = 0; i < n; ++i)
-      p[i] = a[i];
+  std::memcpy(p, &a, sizeof(a));
 }
 
-/** y_k = @p function of a pack of x_k, for @p n numbers; x and y may be the
-    same array. */
-template <typename Function>
-inline void by_packs(const std::size_t n, const double *const x,
-                     double *const y, const Function &function)
+/** Components of the symmetric tensors @p t of the points from @p k on, and
+    back. */
+inline void load_wide(const double *const t[6], const std::size_t k,
+                      WidePack out[6])
 {
-  for (std::size_t k = 0; k < n; k += n_wide)
-    store_some(&y[k], function(load_some(&x[k], n - k)), n - k);
+  for (int c = 0; c < 6; ++c)
+    out[c] = load_wide(&t[c][k]);
+}
+inline void store_wide(double *const t[6], const std::size_t k,
+                       const WidePack a[6])
+{
+  for (int c = 0; c < 6; ++c)
+    store_wide(&t[c][k], a[c]);
+}
+
+/** a : a of symmetric tensors. */
+inline WidePack square_of(const WidePack a[6])
+{
+  return a[0] * a[0] + a[1] * a[1] + a[2] * a[2] +
+         2. * (a[3] * a[3] + a[4] * a[4] + a[5] * a[5]);
+}
+/** a <- dev a. @return tr a / 3. */
+inline WidePack make_deviator(WidePack a[6])
+{
+  const WidePack mean = (a[0] + a[1] + a[2]) / 3.;
+  for (int c = 0; c < 3; ++c)
+    a[c] -= mean;
+  return mean;
 }
 } // namespace sabot
 

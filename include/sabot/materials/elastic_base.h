@@ -76,7 +76,10 @@ protected:
   virtual std::vector<StateVariable> law_variables() const { return {}; }
   /** One number per point that a law may keep between the two calls. */
   using Scratch = double[max_batch_points];
-  /** From the old stress, rotated, to the new deviator (no pressure left in
+  /** The points come in whole packs: batch.n is a multiple of eight, points
+      that a body does not have repeat its last one. So every point goes through
+      the same instructions, wherever it stands. From the old stress, rotated,
+      to the new deviator (no pressure left in
       it), with return_factor, plastic_work and the states, which are
       law_variables(), of every point. @p scratch: see after_pressure(). */
   virtual void update_deviator(const MaterialBatch &batch,
@@ -95,6 +98,8 @@ protected:
   const double G; // at rest [Pa]
 
 private:
+  void update_whole(const MaterialBatch &batch) const;
+
   const std::size_t n_eos_states; // arrays of state that are the equation's
 };
 } // namespace sabot

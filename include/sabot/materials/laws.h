@@ -88,6 +88,10 @@ private:
   /** d for the trial @p q [Pa] at strain @p eps, 0 below yield, and what Y
      grows by [Pa]. */
   double increment(const double q, const double eps, double &hardening) const;
+  /** s - alpha of a pack of points from @p k on. */
+  template <bool kinematic>
+  void relative_stress(const MaterialBatch &batch, const std::size_t k,
+                       WidePack xi[6]) const;
   /** The return of a trial deviator, with or without a back stress. */
   template <bool kinematic>
   void return_deviator(const MaterialBatch &batch) const;

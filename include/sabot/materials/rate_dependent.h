@@ -251,13 +251,11 @@ void RateDependentPlasticity<Flow>::find_modulus(const MaterialBatch &b,
   }
   for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    const std::size_t n = b.n - k;
-    const auto at =
-        flow.at(load_some(&temperature[k], n), load_some(&pressure[k], n),
-                load_some(&b.jacobian[k], n));
-    store_some(&modulus[k], G * flow.shear_factor(at), n);
+    const auto at = flow.at(load_wide(&temperature[k]), load_wide(&pressure[k]),
+                            load_wide(&b.jacobian[k]));
+    store_wide(&modulus[k], G * flow.shear_factor(at));
     if (bound != nullptr)
-      store_some(&bound[k], flow.lower_bound(at), n);
+      store_wide(&bound[k], flow.lower_bound(at));
   }
 }
 
@@ -266,29 +264,21 @@ void RateDependentPlasticity<Flow>::make_trial(
     const MaterialBatch &b, const double *const modulus, double *const square,
     double *const strain_square) const
 {
-  const double *const *const e = b.strain_increment;
-#pragma GCC ivdep // arrays do not overlap
-  for (std::size_t k = 0; k < b.n; ++k)
+  for (std::size_t k = 0; k < b.n; k += n_wide)
   {
-    double s[6], d[6]; // deviators
-    const double trace = (e[0][k] + e[1][k] + e[2][k]) / 3.,
-                 mean = (b.stress[0][k] + b.stress[1][k] + b.stress[2][k]) / 3.,
-                 two_G = 2. * modulus[k];
+    WidePack s[6], e[6];
+    load_wide(b.stress, k, s);
+    load_wide(b.strain_increment, k, e);
+    make_deviator(s);
+    make_deviator(e);
+    const WidePack two_G = 2. * load_wide(&modulus[k]);
     for (int c = 0; c < 6; ++c)
-      d[c] = c < 3 ? e[c][k] - trace : e[c][k];
-    for (int c = 0; c < 6; ++c)
-      s[c] = c < 3 ? b.stress[c][k] + (two_G * d[c] - mean)
-                   : b.stress[c][k] + two_G * d[c];
-    for (int c = 0; c < 6; ++c)
-      b.stress[c][k] = s[c];
-    strain_square[k] = 2. / 3. *
-                       (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] +
-                        2. * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5]));
-    square[k] = 1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] +
-                       2. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])) +
-                b.extra_square[k];
-    b.return_factor[k] = 1.;
-    b.plastic_work[k] = 0.;
+      s[c] += two_G * e[c];
+    store_wide(b.stress, k, s);
+    store_wide(&square[k], 1.5 * square_of(s) + load_wide(&b.extra_square[k]));
+    store_wide(&strain_square[k], 2. / 3. * square_of(e));
+    store_wide(&b.return_factor[k], splat<WidePack>(1.));
+    store_wide(&b.plastic_work[k], WidePack{});
   }
 }
 
