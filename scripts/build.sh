@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Configure and build:
-#   scripts/build.sh [release|debug|asan-ubsan] [-DOPTION=VALUE...]
+#   scripts/build.sh [release|portable|debug|asan-ubsan] [-DOPTION=VALUE...]
 # all programs and tests;
 #   scripts/build.sh release sabot
 # the program alone, which needs fewer packages.

@@ -217,9 +217,6 @@ std::vector<Check> aspect_ratio()
       p[0] *= 100.;
     for (double &v : mesh.volume)
       v *= 100.;
-    for (auto &gradients : mesh.mean_gradient)
-      for (auto &g : gradients)
-        g[0] *= 0.01;
     return mesh;
   };
   World world;

@@ -62,7 +62,6 @@ HexMesh part_of(const HexMesh &mesh, const std::vector<char> &is_in,
     for (int a = 0; a < 8; ++a)
       cell[a] = number[mesh.cells[c][a]];
     part.cells.push_back(cell);
-    part.mean_gradient.push_back(mesh.mean_gradient[c]);
     part.volume.push_back(mesh.volume[c]);
     for (const auto &corners : face_corners)
     {

@@ -1,10 +1,55 @@
 // Questions to a mesh of hexahedra.
 #include "sabot/geometry/hex_mesh.h"
 
+#include "sabot/kernels/vec.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace sabot
 {
+namespace
+{
+/** Signs of the corners of the reference cell, VTK order. */
+constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+} // namespace
+
+MeanGradients mean_gradients(const HexMesh &mesh, const GlobalIndex cell)
+{
+  MeanGradients result;
+  const double at = 1. / std::sqrt(3.);
+  for (const auto &point : sign)
+  {
+    Vec derivative[8]; // in the reference cell
+    Mat J = Mat::zero();
+    for (int a = 0; a < 8; ++a)
+    {
+      double f[3];
+      for (int d = 0; d < 3; ++d)
+        f[d] = 0.5 * (1. + sign[a][d] * point[d] * at);
+      derivative[a] =
+          vec(0.5 * sign[a][0] * f[1] * f[2], 0.5 * sign[a][1] * f[0] * f[2],
+              0.5 * sign[a][2] * f[0] * f[1]);
+      const auto &X = mesh.nodes[mesh.cells[cell][a]];
+      add_outer(J, vec(X[0], X[1], X[2]), derivative[a]);
+    }
+    double det;
+    const Mat to_space = transpose(inverse(J, det));
+    result.volume += det;
+    for (int a = 0; a < 8; ++a)
+    {
+      const Vec gradient = to_space * derivative[a];
+      for (int d = 0; d < 3; ++d)
+        result.B[a][d] += det * gradient[d];
+    }
+  }
+  for (auto &B : result.B)
+    for (double &component : B)
+      component /= result.volume;
+  return result;
+}
+
 std::vector<GlobalIndex> nodes_of_faces(const HexMesh &mesh,
                                         const std::vector<unsigned int> &ids)
 {

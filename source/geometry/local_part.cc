@@ -39,6 +39,7 @@ std::vector<std::array<std::uint32_t, 8>>
 LocalPart::connectivity(const HexMesh &mesh) const
 {
   std::vector<std::array<std::uint32_t, 8>> corners;
+  corners.reserve(cells.size());
   for (const GlobalIndex c : cells)
   {
     std::array<std::uint32_t, 8> nodes;

@@ -3,17 +3,14 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/text.h"
+#include "sabot/geometry/curve_order.h"
 #include "sabot/geometry/item_count.h"
-#include "sabot/geometry/mesh_extraction.h"
 #include "sabot/geometry/particle_cloud.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sabot
 {
@@ -155,57 +152,106 @@ bool is_cut(const BoxSpecification &box, const Planes &planes,
   return inside;
 }
 
-/** 0 to 5 for -x, +x, ..., +z where @p x is the center of a face of the box, 6
-    where it is one of the zone. */
-unsigned int box_face_id(const BoxSpecification &box, const dealii::Point<3> &x)
+/** Corners of a cell in VTK order, and of its faces with outward normals: -x,
+    +x, ..., +z. */
+constexpr int cell_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+constexpr int face_corner[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
+                                   {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+
+/** A box on its way to a mesh, cell by cell. */
+class BoxOfCells
 {
-  unsigned int id = 6;
-  for (unsigned int d = 0; d < 3; ++d)
+public:
+  BoxOfCells(const BoxSpecification &box, const Planes &planes)
+      : box(box), planes(planes)
   {
-    const double low = box.center[d] - 0.5 * box.size[d],
-                 high = box.center[d] + 0.5 * box.size[d];
-    if (std::abs(x[d] - low) < 1e-9 * box.size[d])
-      id = 2 * d;
-    if (std::abs(x[d] - high) < 1e-9 * box.size[d])
-      id = 2 * d + 1;
+    std::size_t n_nodes = 1;
+    for (int d = 0; d < 3; ++d)
+    {
+      n[d] = planes[d].size() - 1;
+      n_nodes *= planes[d].size();
+    }
+    number.assign(n_nodes, -1);
   }
-  return id;
-}
+  HexMesh mesh()
+  {
+    std::size_t n_cells = 1;
+    for (const std::size_t along : n)
+      n_cells *= along;
+    result.nodes.reserve(number.size());
+    result.cells.reserve(n_cells);
+    for (std::size_t k = 0; k < n[2]; ++k)
+      for (std::size_t j = 0; j < n[1]; ++j)
+        for (std::size_t i = 0; i < n[0]; ++i)
+          if (!is_cut(box, planes, {{i, j, k}}))
+            add_cell({{i, j, k}});
+    if (result.cells.empty())
+      throw InputError(box.zone_path + "/Size",
+                       "the zone leaves nothing of the body that it is carved "
+                       "from; make it smaller");
+    return sorted_along_curve(std::move(result), std::move(face_cell));
+  }
+
+private:
+  using Place = std::array<std::size_t, 3>;
+  GlobalIndex node_at(const Place &at)
+  {
+    GlobalIndex &known =
+        number[at[0] + (n[0] + 1) * (at[1] + (n[1] + 1) * at[2])];
+    if (known < 0)
+    {
+      known = result.nodes.size();
+      result.nodes.push_back(
+          {{planes[0][at[0]], planes[1][at[1]], planes[2][at[2]]}});
+    }
+    return known;
+  }
+  /** 0 to 5 for a face of the box, 6 for one of the zone, -1 between cells. */
+  int face_id(const Place &at, const int face) const
+  {
+    const int d = face / 2;
+    if (at[d] == (face % 2 ? n[d] - 1 : 0))
+      return face;
+    Place across = at;
+    across[d] += face % 2 ? 1 : -1;
+    return is_cut(box, planes, across) ? 6 : -1;
+  }
+  void add_cell(const Place &at)
+  {
+    std::array<GlobalIndex, 8> nodes;
+    for (int a = 0; a < 8; ++a)
+      nodes[a] = node_at({{at[0] + cell_corner[a][0], at[1] + cell_corner[a][1],
+                           at[2] + cell_corner[a][2]}});
+    for (int f = 0; f < 6; ++f)
+    {
+      const int id = face_id(at, f);
+      if (id < 0)
+        continue;
+      std::array<GlobalIndex, 4> face;
+      for (int a = 0; a < 4; ++a)
+        face[a] = nodes[face_corner[f][a]];
+      result.boundary_faces.push_back(face);
+      result.boundary_id.push_back(id);
+      face_cell.push_back(result.cells.size());
+    }
+    result.cells.push_back(nodes);
+  }
+
+  const BoxSpecification &box;
+  const Planes &planes;
+  std::array<std::size_t, 3> n;    // cells along the axes
+  std::vector<GlobalIndex> number; // of the nodes of all planes, or -1
+  std::vector<GlobalIndex> face_cell;
+  HexMesh result;
+};
 } // namespace
 
+// Written down at once: deal.II's triangulation, which other shapes need, takes
+// 900 bytes a cell.
 HexMesh make_graded_box(const BoxSpecification &box)
 {
   const Planes planes = planes_of(box);
-  // Steps, and which cells stay: deal.II leaves out cells of this material id.
-  std::vector<std::vector<double>> steps(3);
-  dealii::Point<3> low;
-  for (unsigned int d = 0; d < 3; ++d)
-  {
-    low[d] = box.center[d] - 0.5 * box.size[d];
-    for (std::size_t i = 1; i < planes[d].size(); ++i)
-      steps[d].push_back(planes[d][i] - planes[d][i - 1]);
-  }
-  dealii::Table<3, dealii::types::material_id> ids(
-      steps[0].size(), steps[1].size(), steps[2].size());
-  std::size_t n_left = 0;
-  for (std::size_t i = 0; i < steps[0].size(); ++i)
-    for (std::size_t j = 0; j < steps[1].size(); ++j)
-      for (std::size_t k = 0; k < steps[2].size(); ++k)
-      {
-        const bool cut = is_cut(box, planes, {{i, j, k}});
-        ids[i][j][k] = cut ? dealii::numbers::invalid_material_id : 0;
-        n_left += !cut;
-      }
-  if (n_left == 0)
-    throw InputError(box.zone_path + "/Size",
-                     "the zone leaves nothing of the body that it is carved "
-                     "from; make it smaller");
-  dealii::Triangulation<3> mesh;
-  dealii::GridGenerator::subdivided_hyper_rectangle(mesh, steps, low, ids,
-                                                    false);
-  for (const auto &face : mesh.active_face_iterators())
-    if (face->at_boundary())
-      face->set_boundary_id(box_face_id(box, face->center()));
-  return extract_mesh(mesh);
+  return BoxOfCells(box, planes).mesh();
 }
 } // namespace sabot

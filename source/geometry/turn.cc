@@ -135,9 +135,6 @@ void Turn::apply(HexMesh &mesh) const
     return;
   for (auto &node : mesh.nodes)
     node = place(node);
-  for (auto &cell : mesh.mean_gradient)
-    for (auto &gradient : cell)
-      gradient = to_array(rotation * to_vec(gradient));
 }
 
 void Turn::apply(ParticleCloud &cloud) const

@@ -63,9 +63,10 @@ TEST(Turn, mean_gradients_follow)
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
     Mat sum = Mat::zero();
+    const MeanGradients mean = mean_gradients(mesh, c);
+    EXPECT_NEAR(mean.volume, mesh.volume[c], 1e-12 * mesh.volume[c]);
     for (int a = 0; a < 8; ++a)
-      add_outer(sum, to_vec(mesh.nodes[mesh.cells[c][a]]),
-                to_vec(mesh.mean_gradient[c][a]));
+      add_outer(sum, to_vec(mesh.nodes[mesh.cells[c][a]]), to_vec(mean.B[a]));
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         EXPECT_NEAR(sum(i, j), i == j ? 1. : 0., 1e-12);

@@ -17,9 +17,8 @@ namespace sabot
  * nothing of it: active cells, no hanging nodes. Node numbers come from a
  * DoFHandler of trilinear elements, then nodes and cells are reordered along a
  * Hilbert curve, so that neighbors in space are neighbors in memory and the
- * numbering depends on the coordinates only. Mean gradients and volumes are
- * integrals by FEValues. Not collective; the same on every rank that has the
- * same mesh.
+ * numbering depends on the coordinates only. Not collective; the same on every
+ * rank that has the same mesh.
  */
 HexMesh extract_mesh(const dealii::Triangulation<3, 3> &mesh);
 } // namespace sabot

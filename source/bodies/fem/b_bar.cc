@@ -14,6 +14,14 @@ inline double sum_lanes(const Pack a)
   return a[0] + a[1] + a[2] + a[3];
 }
 
+/** The sums over the lanes of three packs, by shuffles of all three at once. */
+inline Vec sum_lanes(const Pack a[3])
+{
+  Vec lane[n_lanes];
+  unpack(a[0], a[1], a[2], lane);
+  return (lane[0] + lane[1]) + (lane[2] + lane[3]);
+}
+
 /** Signs of the corners of the reference cell, VTK order. */
 constexpr int corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},
                               {-1, 1, -1},  {-1, -1, 1}, {1, -1, 1},
@@ -126,15 +134,16 @@ SABOT_IN_LOOP void BBar::add_points(const NodalState &nodes,
   const Pack J_old = determinant(old);
   Pack J = determinant(F);
   const auto lost = !(J > 2. / 3. * J_old);
-  for (std::size_t lane = 0; lane < n_lanes; ++lane)
-    if (lost[lane] && avoid_inversion(nodes, e, J_old[lane], J[lane]))
-    {
-      // The cell goes at the end of the step; until then it stays as it was.
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          F.m[i][j][lane] = old.m[i][j][lane];
-      J[lane] = J_old[lane];
-    }
+  if (lost[0] | lost[1] | lost[2] | lost[3])
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      if (lost[lane] && avoid_inversion(nodes, e, J_old[lane], J[lane]))
+      {
+        // The cell goes at the end of the step; until then it stays as it was.
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            F.m[i][j][lane] = old.m[i][j][lane];
+        J[lane] = J_old[lane];
+      }
   const PackMat &l = cell.l[p] = midpoint_increment(old, F);
   const Pack weight = 0.5 * g.volume[p] * (J + J_old);
   store_pack(&batch.half_volume[e % cells_per_batch * 8 + p * n_lanes],
@@ -161,7 +170,7 @@ SABOT_IN_LOOP void BBar::add_present_gradients(const Geometry &g, const int p,
       const Pack vb = adjoint.m[0][i] * g.B[p][a][0] +
                       adjoint.m[1][i] * g.B[p][a][1] +
                       adjoint.m[2][i] * g.B[p][a][2];
-      cell.mean[a][i] += sum_lanes(g.volume[p] * vb);
+      cell.mean[a][i] += g.volume[p] * vb;
       b[i] = J_inverse * vb;
     }
     G[0] += b[0] * b[0];
@@ -190,8 +199,11 @@ SABOT_IN_LOOP double BBar::stable_step(const CellConstants &constants,
   const double c = constants.sound_speed, density = constants.density,
                c1 = constants.linear_bulk, c2 = constants.quadratic_bulk;
   Mat mean_square = Mat::zero();
-  for (const Vec b : cell.mean)
+  for (const auto &lanes : cell.mean)
+  {
+    const Vec b = sum_lanes(lanes);
     add_outer(mean_square, b, (1. / (cell.volume * cell.volume)) * b);
+  }
   const double trace_G = trace(mean_square);
   const double thickness = std::sqrt(
       0.5 / std::min(trace_G, std::sqrt(norm_square(mean_square.row[0]) +
@@ -291,25 +303,26 @@ void BBar::cell_forces(const NodalState &, const std::size_t e,
       stress[p][d] -= pressure;
   }
   mean /= cell_volume;
-  for (int a = 0; a < 8; ++a)
-    force[a] = Vec{};
+  PackMat P[n_packs]; // V_q J sigma F^-T
   for (int p = 0; p < n_packs; ++p)
   {
     const Pack *const s = stress[p];
     const PackMat sigma = {{{s[0] + mean, s[3], s[5]},
                             {s[3], s[1] + mean, s[4]},
                             {s[5], s[4], s[2] + mean}}};
-    PackMat P; // V_q J sigma F^-T
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        P.m[i][j] = g.volume[p] * (sigma.m[i][0] * adjoint[p].m[j][0] +
-                                   sigma.m[i][1] * adjoint[p].m[j][1] +
-                                   sigma.m[i][2] * adjoint[p].m[j][2]);
-    for (int a = 0; a < 8; ++a)
+        P[p].m[i][j] = g.volume[p] * (sigma.m[i][0] * adjoint[p].m[j][0] +
+                                      sigma.m[i][1] * adjoint[p].m[j][1] +
+                                      sigma.m[i][2] * adjoint[p].m[j][2]);
+  }
+  for (int a = 0; a < 8; ++a)
+  {
+    Pack sum[3] = {};
+    for (int p = 0; p < n_packs; ++p)
       for (int i = 0; i < 3; ++i)
-        force[a][i] -=
-            sum_lanes(P.m[i][0] * g.B[p][a][0] + P.m[i][1] * g.B[p][a][1] +
-                      P.m[i][2] * g.B[p][a][2]);
+        sum[i] += dot(P[p].m[i], g.B[p][a]);
+    force[a] = -sum_lanes(sum);
   }
 }
 

@@ -13,15 +13,23 @@ namespace sabot
 {
 namespace
 {
-/** The doubles of one lane of a struct made of packs. */
-template <typename Packs>
+/** One lane of a struct made of packs of @p Number. */
+template <typename Number, typename Packs>
 void copy_lane(const Packs &from, const std::size_t from_lane, Packs &to,
                const std::size_t to_lane)
 {
-  const auto *const source = reinterpret_cast<const double *>(&from);
-  auto *const target = reinterpret_cast<double *>(&to);
-  for (std::size_t i = 0; i < sizeof(Packs) / sizeof(double); i += n_lanes)
+  const auto *const source = reinterpret_cast<const Number *>(&from);
+  auto *const target = reinterpret_cast<Number *>(&to);
+  for (std::size_t i = 0; i < sizeof(Packs) / sizeof(Number); i += n_lanes)
     target[i + to_lane] = source[i + from_lane];
+}
+
+/** An array of packs with room for @p n of them, new ones zero. */
+template <typename Packs>
+void make_room(AlignedVector<Packs> &packs, const std::size_t n)
+{
+  packs.resize(n);
+  std::memset(static_cast<void *>(packs.data()), 0, n * sizeof(Packs));
 }
 } // namespace
 
@@ -35,90 +43,73 @@ void OnePoint::set_up(const HexMesh &mesh, const std::vector<GlobalIndex> &ids,
                            {1, -1, 1, -1, 1, -1, 1, -1},
                            {-1, 1, -1, 1, 1, -1, 1, -1}};
   const std::size_t n_packs = round_up(size(), batch_size) / n_lanes;
-  geometry.resize(n_packs);
-  motion.resize(n_packs);
-  std::memset(static_cast<void *>(geometry.data()), 0,
-              n_packs * sizeof(Geometry));
-  std::memset(static_cast<void *>(motion.data()), 0, n_packs * sizeof(Motion));
+  make_room(geometry, n_packs);
+  make_room(motion, n_packs);
+  if (keeps_reference_modes())
+    make_room(reference_modes, n_packs);
+  else
+    make_room(last_forces, n_packs);
+  volume.resize(size());
   for (std::size_t e = 0; e < size(); ++e)
   {
     Geometry &g = geometry[e / n_lanes];
-    Motion &m = motion[e / n_lanes];
     const std::size_t lane = e % n_lanes;
     const GlobalIndex c = ids[e];
-    volume.push_back(mesh.volume[c]);
-    g.volume[lane] = mesh.volume[c];
-    g.size_square[lane] = std::pow(mesh.volume[c], 2. / 3.);
-    constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
+    g.volume[lane] = volume[e] = mesh.volume[c];
+    const MeanGradients mean = mean_gradients(mesh, c);
     for (int a = 0; a < 8; ++a)
     {
-      const auto &B = mesh.mean_gradient[c][a];
       const auto &X = mesh.nodes[mesh.cells[c][a]];
-      g.node[a][lane] = nodes[e][a];
       for (int d = 0; d < 3; ++d)
       {
-        g.B[a][d][lane] = B[d];
+        g.B[a][d][lane] = mean.B[a][d];
         if (keeps_reference_modes())
           for (int k = 0; k < 4; ++k)
-            m.mode[k][d][lane] += h[k][a] * X[d];
+            reference_modes[e / n_lanes].mode[k][d][lane] += h[k][a] * X[d];
       }
-      for (int s = 0; s < 6; ++s)
-        g.square[s][lane] += B[row[s]] * B[column[s]];
     }
     for (int d = 0; d < 3; ++d)
-      m.F.m[d][d][lane] = 1.;
+      motion[e / n_lanes].m[d][d][lane] = 1.;
   }
   allocate_points();
   fill_up();
+}
+
+void OnePoint::copy_cell(const std::size_t from, const std::size_t to)
+{
+  const std::size_t a = from / n_lanes, a_lane = from % n_lanes,
+                    b = to / n_lanes, b_lane = to % n_lanes;
+  copy_lane<double>(geometry[a], a_lane, geometry[b], b_lane);
+  copy_lane<double>(motion[a], a_lane, motion[b], b_lane);
+  if (keeps_reference_modes())
+    copy_lane<double>(reference_modes[a], a_lane, reference_modes[b], b_lane);
+  else
+    copy_lane<float>(last_forces[a], a_lane, last_forces[b], b_lane);
 }
 
 void OnePoint::fill_up()
 {
   // Lanes without a cell repeat the last one, without volume.
   const std::size_t n = size();
-  if (n == 0)
-    return;
-  for (std::size_t e = n; e < round_up(n, batch_size); ++e)
+  for (std::size_t e = n; n > 0 && e < round_up(n, batch_size); ++e)
   {
-    const std::size_t last = (n - 1) / n_lanes, last_lane = (n - 1) % n_lanes,
-                      pack = e / n_lanes, lane = e % n_lanes;
-    Geometry &g = geometry[pack];
-    copy_lane(motion[last], last_lane, motion[pack], lane);
-    for (int a = 0; a < 8; ++a)
-    {
-      g.node[a][lane] = geometry[last].node[a][last_lane];
-      for (int d = 0; d < 3; ++d)
-        g.B[a][d][lane] = geometry[last].B[a][d][last_lane];
-    }
-    for (int s = 0; s < 6; ++s)
-      g.square[s][lane] = geometry[last].square[s][last_lane];
-    g.volume[lane] = g.size_square[lane] = 0.;
+    copy_cell(n - 1, e);
+    geometry[e / n_lanes].volume[e % n_lanes] = 0.;
   }
 }
 
 void OnePoint::keep(const std::vector<std::size_t> &kept)
 {
   for (std::size_t e = 0; e < kept.size(); ++e)
-  {
-    const std::size_t from = kept[e] / n_lanes, from_lane = kept[e] % n_lanes,
-                      to = e / n_lanes, lane = e % n_lanes;
-    copy_lane(motion[from], from_lane, motion[to], lane);
-    const Geometry &source = geometry[from];
-    Geometry &g = geometry[to];
-    for (int a = 0; a < 8; ++a)
-    {
-      g.node[a][lane] = source.node[a][from_lane];
-      for (int d = 0; d < 3; ++d)
-        g.B[a][d][lane] = source.B[a][d][from_lane];
-    }
-    for (int s = 0; s < 6; ++s)
-      g.square[s][lane] = source.square[s][from_lane];
-    g.volume[lane] = source.volume[from_lane];
-    g.size_square[lane] = source.size_square[from_lane];
-  }
+    copy_cell(kept[e], e);
   keep_points(kept);
-  geometry.resize(round_up(size(), batch_size) / n_lanes);
-  motion.resize(geometry.size());
+  const std::size_t n_packs = round_up(size(), batch_size) / n_lanes;
+  geometry.resize(n_packs);
+  motion.resize(n_packs);
+  if (keeps_reference_modes())
+    reference_modes.resize(n_packs);
+  else
+    last_forces.resize(n_packs);
   fill_up();
 }
 
@@ -151,19 +142,34 @@ void OnePoint::scatter(NodalState &nodes, const std::size_t pack)
   const std::size_t n =
       std::min(n_lanes, size() > pack * n_lanes ? size() - pack * n_lanes : 0);
   for (std::size_t lane = 0; lane < n; ++lane)
+  {
+    const auto &corner_nodes = connectivity[pack * n_lanes + lane];
     for (int a = 0; a < 8; ++a)
-      nodes.force[g.node[a][lane]] -= force[a][lane];
+      nodes.force[corner_nodes[a]] -= force[a][lane];
+  }
+}
+
+void OnePoint::kept_modes(const std::size_t e, Vec kept[4]) const
+{
+  const std::size_t pack = e / n_lanes, lane = e % n_lanes;
+  const auto modes = [&](const auto &mode)
+  {
+    for (int k = 0; k < 4; ++k)
+      kept[k] = vec(mode[k][0][lane], mode[k][1][lane], mode[k][2][lane]);
+  };
+  if (keeps_reference_modes())
+    modes(reference_modes[pack].mode);
+  else
+    modes(last_forces[pack].mode);
 }
 
 void OnePoint::cell_forces(const NodalState &nodes, const std::size_t e,
                            Vec force[8]) const
 {
   const Geometry &g = geometry[e / n_lanes];
-  const Motion &m = motion[e / n_lanes];
   const std::size_t lane = e % n_lanes;
   Vec kept[4];
-  for (int k = 0; k < 4; ++k)
-    kept[k] = vec(m.mode[k][0][lane], m.mode[k][1][lane], m.mode[k][2][lane]);
+  kept_modes(e, kept);
   const Mat F = gradient(e);
   double J;
   const Mat F_inverse = inverse(F, J);
@@ -181,12 +187,14 @@ void OnePoint::cell_forces(const NodalState &nodes, const std::size_t e,
 
 Mat OnePoint::gradient(const std::size_t e) const
 {
-  return lane_of(motion[e / n_lanes].F, e % n_lanes);
+  return lane_of(motion[e / n_lanes], e % n_lanes);
 }
 
 void OnePoint::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("motion", motion);
+  if (!keeps_reference_modes())
+    visitor.visit_array("modal forces", last_forces);
   Hexahedra::visit_state(visitor);
 }
 

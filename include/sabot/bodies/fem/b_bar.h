@@ -78,10 +78,11 @@ private:
   struct Moving // on the stack, while kinematics() runs
   {
     PackMat F[n_packs], l[n_packs]; // l: see midpoint_increment()
-    Vec mean[8];                    // v times the mean present gradients [m^2]
-    double volume, middle_volume;   // present and mid [m^3]
-    double expansion;               // sum of mid volume tr l [m^3]
-    double shear_bound;             // sum of v_q lambda_max G_q [m]
+    // v times the mean present gradients, a part in each lane [m^2]
+    Pack mean[8][3];
+    double volume, middle_volume; // present and mid [m^3]
+    double expansion;             // sum of mid volume tr l [m^3]
+    double shear_bound;           // sum of v_q lambda_max G_q [m]
   };
   /** Gradients at Gauss point @p q of a cell with the corners @p X [m].
       @return its volume [m^3]. B_a = J^-T dN_a/dxi, V_q = det J with weights

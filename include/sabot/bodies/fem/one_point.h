@@ -80,7 +80,8 @@ protected:
   virtual bool keeps_reference_modes() const = 0;
   /** Modal forces of one cell in its present state [N], recomputed for a cell
       that is about to go.
-      @param kept  what the cell keeps of its modes (Motion::mode)
+      @param kept  what the cell keeps of its modes, see ReferenceModes and
+                   LastForces
       @param mode  in: sum h_a x_a [m]; out: forces
       @param P     V_0 J sigma F^-T; the modes' part is added */
   virtual void modal_forces(const Mat &F, const Mat &F_inverse,
@@ -88,25 +89,26 @@ protected:
                             Vec mode[4], Mat &P) const = 0;
 
   /** Reference data of four cells, read twice per step. Gradients are means
-      over the cell (Flanagan & Belytschko 1981), V_0 is exact; node numbers
-      are local. */
+      over the cell (Flanagan & Belytschko 1981), V_0 is exact. */
   struct Geometry
   {
-    Pack B[8][3];     // mean gradients [1/m]
-    Pack square[6];   // sum B_a (x) B_a: xx, yy, zz, xy, yz, xz
-    Pack volume;      // V_0; 0 in lanes without a cell
-    Pack size_square; // V_0^(2/3)
-    std::uint32_t node[8][n_lanes];
+    Pack B[8][3]; // mean gradients [1/m]
+    Pack volume;  // V_0; 0 in lanes without a cell
   };
-  /** Per cell what the next step needs; what the modes are is up to the form
-      of hourglass control. At the end of the last step; modes are kept
-      [mode][component]. With viscosity they are the modal forces of the last
-      step [N], for the work of the mean of both ends; with stiffness the
-      modes of the undeformed cell [m]. */
-  struct Motion
+  /** F of four cells at the end of the last step. */
+  using Motion = PackMat;
+  /** sum h_b X_b of four cells [mode][component], the modes of the undeformed
+      cell [m]. */
+  struct ReferenceModes
   {
-    PackMat F;
     Pack mode[4][3];
+  };
+  /** The modal forces of the last step [N], for the work of the mean of both
+      ends: they are books, and no force is made of them, so that seven digits
+      will do. */
+  struct LastForces
+  {
+    HalfPack mode[4][3];
   };
   /** Of one pack of cells, from kinematics to forces. Written by the
       kinematics of the loop, read by scatter() once the law has the stress:
@@ -127,10 +129,32 @@ protected:
 
   AlignedVector<Geometry> geometry;
   AlignedVector<Motion> motion;
+  // One of these, by keeps_reference_modes().
+  AlignedVector<ReferenceModes> reference_modes;
+  AlignedVector<LastForces> last_forces;
   PointBatch batch;
   alignas(64) Pending pending[packs_per_batch];
 
+  /** Local nodes of the four cells of a pack, those of the last cell again in
+      lanes without one. */
+  struct Corners
+  {
+    const std::uint32_t *of[n_lanes];
+  };
+  Corners corners(const std::size_t pack) const
+  {
+    Corners c;
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      c.of[lane] =
+          connectivity[std::min(pack * n_lanes + lane, size() - 1)].data();
+    return c;
+  }
+
 private:
+  /** All that is kept of a cell, from one lane to another. */
+  void copy_cell(const std::size_t from, const std::size_t to);
+  /** The modes that a cell keeps. */
+  void kept_modes(const std::size_t cell, Vec kept[4]) const;
   /** Lanes behind the last cell repeat it with a volume of 0: the arithmetic
       stays finite and nothing is added. */
   void fill_up();

@@ -15,8 +15,7 @@ namespace sabot
  *
  *     static constexpr bool needs_velocities;
  *     void hourglass(const CellConstants &, const FourCells &,
- *                    const double dt, const std::size_t pack, Motion &kept,
- *                    Pending &out);
+ *                    const double dt, const std::size_t pack, Pending &out);
  *
  * always inlined, which sets the modal forces [N], their part of P [N m] and
  * the hourglass energy [J] of four cells.
@@ -66,7 +65,7 @@ protected:
     PackMat S;          // sum B_a (x) B_a [1/m^2]
     PackMat L;          // sum v_a (x) B_a [1/s], where velocities are needed
     Pack J, J_inverse;
-    Pack J_root;       // J^(1/3)
+    Pack edge;         // (V_0 J)^(1/3) [m]
     Pack modal[3][4];  // sum h_a x_a [m]
     Pack corner[3][8]; // x_a [m], then v_a [m/s] where they are needed
   };
@@ -80,8 +79,9 @@ private:
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t pack, const double dt);
   void ask_for(const std::size_t pack) const;
-  static PackMat nodal_gradient(const Geometry &g, const Vec *nodal,
-                                Pack value[3][8]);
+  static PackMat nodal_gradient(const Geometry &g, const Corners &corners,
+                                const Vec *nodal, Pack value[3][8]);
+  static PackMat squares(const Geometry &g);
   void rest_what_inverts(const NodalState &nodes, const std::size_t pack,
                          const Pack J_old, FourCells &cells);
   void store_strain(const PackMat &l, const FourCells &cells, const Pack J_old,
@@ -93,7 +93,7 @@ private:
   static Pack step_of_quarter_volume(const FourCells &cells);
 };
 
-/** All cache lines of the pack that comes next: four cells have 1.8 kB of
+/** All cache lines of the pack that comes next: four cells have 1.4 kB of
     data, which the hardware's prefetcher finds too late. */
 template <typename Form>
 SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
@@ -115,6 +115,7 @@ SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
     a rotation, since sum B_a = 0. */
 template <typename Form>
 SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
+                                                         const Corners &corners,
                                                          const Vec *const nodal,
                                                          Pack value[3][8])
 {
@@ -122,7 +123,9 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
   for (int a = 0; a < 8; ++a)
   {
     Pack p[3];
-    gather(nodal, g.node[a], p);
+    const std::uint32_t node[n_lanes] = {corners.of[0][a], corners.of[1][a],
+                                         corners.of[2][a], corners.of[3][a]};
+    gather(nodal, node, p);
     for (int i = 0; i < 3; ++i)
     {
       value[i][a] = p[i];
@@ -131,6 +134,22 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
     }
   }
   return sum;
+}
+
+/** S = sum B_a (x) B_a [1/m^2]: 48 multiplications, cheaper than to read what
+    they give. */
+template <typename Form>
+SABOT_IN_LOOP PackMat OnePointLoop<Form>::squares(const Geometry &g)
+{
+  PackMat S = {};
+  for (const Pack *const B : g.B)
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j)
+        S.m[i][j] += B[i] * B[j];
+  for (int i = 1; i < 3; ++i)
+    for (int j = 0; j < i; ++j)
+      S.m[i][j] = S.m[j][i];
+  return S;
 }
 
 /** Cells that lost a third of their volume in one step are judged, see
@@ -152,7 +171,7 @@ OnePointLoop<Form>::rest_what_inverts(const NodalState &nodes,
       {
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j)
-            cells.F.m[i][j][lane] = motion[pack].F.m[i][j][lane];
+            cells.F.m[i][j][lane] = motion[pack].m[i][j][lane];
         cells.J[lane] = J_old[lane];
       }
     }
@@ -284,33 +303,35 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
                                     const std::size_t pack, const double dt)
 {
   const bool shrinks = options.inversion == FemOptions::Inversion::shrink;
-  Motion &kept = motion[pack];
+  Motion &F_old = motion[pack];
   Pending &out = pending[pack % packs_per_batch];
   const std::size_t k = pack % packs_per_batch * n_lanes;
   FourCells cells(geometry[pack]);
+  const Corners nodes_of = corners(pack);
   ask_for(pack + 1);
 
-  cells.F = nodal_gradient(cells.g, nodes.position.data(), cells.corner);
-  const Pack J_old = determinant(kept.F);
+  cells.F =
+      nodal_gradient(cells.g, nodes_of, nodes.position.data(), cells.corner);
+  const Pack J_old = determinant(F_old);
   cells.J = determinant(cells.F);
   rest_what_inverts(nodes, pack, J_old, cells);
-  const PackMat l = midpoint_increment(kept.F, cells.F);
-  kept.F = cells.F;
+  const PackMat l = midpoint_increment(F_old, cells.F);
+  F_old = cells.F;
   const Pack trace = l.m[0][0] + l.m[1][1] + l.m[2][2];
   store_strain(l, cells, J_old, k);
   invert(cells, out);
-  const Pack *const s = cells.g.square;
-  cells.S = {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
+  cells.S = squares(cells.g);
   Pack step = stable_step(constants, cells, trace, dt, k);
 
-  cells.J_root = pack_cbrt(cells.J);
+  cells.edge = pack_cbrt(cells.g.volume * cells.J);
   for (int i = 0; i < 3; ++i)
     hourglass_sums(cells.corner[i], cells.modal[i]);
   if (Form::needs_velocities || shrinks)
-    cells.L = nodal_gradient(cells.g, nodes.velocity.data(), cells.corner);
+    cells.L =
+        nodal_gradient(cells.g, nodes_of, nodes.velocity.data(), cells.corner);
   if (shrinks)
     step = pack_min(step, step_of_quarter_volume(cells));
-  static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, kept, out);
+  static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, out);
   store_pack(&batch.step[k], step);
 }
 } // namespace sabot

@@ -23,13 +23,12 @@ public:
 
   SABOT_IN_LOOP void hourglass(const CellConstants &constants,
                                const FourCells &cells, const double,
-                               const std::size_t pack, Motion &kept,
-                               Pending &out)
+                               const std::size_t pack, Pending &out)
   {
+    const auto &kept = reference_modes[pack];
     const double c = constants.sound_speed;
     const Pack coefficient = options.hourglass_coefficient * 0.125 *
-                             constants.density * c * c *
-                             pack_sqrt(cells.g.size_square) * cells.J_root;
+                             constants.density * c * c * cells.edge;
     out.hourglass = {};
     Pack work = {};
     for (int m = 0; m < 4; ++m)

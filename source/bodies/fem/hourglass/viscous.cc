@@ -24,13 +24,13 @@ public:
 
   SABOT_IN_LOOP void hourglass(const CellConstants &constants,
                                const FourCells &cells, const double dt,
-                               const std::size_t pack, Motion &kept,
-                               Pending &out)
+                               const std::size_t pack, Pending &out)
   {
     const Pack zero = {};
+    LastForces &kept = last_forces[pack];
     const Pack coefficient = options.hourglass_coefficient * 0.25 *
                              constants.density * constants.sound_speed *
-                             cells.g.size_square * cells.J_root * cells.J_root;
+                             cells.edge * cells.edge;
     Pack pulled[4][3]; // F^-1 sum h_a x_a
     const Pack overlap = pull_back(cells, pulled);
     // gamma_a = h_a - p.B_a: in a flattened, crooked cell the part along B is
@@ -50,8 +50,8 @@ public:
       {
         const Pack r = rate[i][m] - dot(cells.L.m[i], pulled[m]);
         const Pack f = bounded * r;
-        work += (f + kept.mode[m][i]) * r;
-        kept.mode[m][i] = f;
+        work += (f + to_double(kept.mode[m][i])) * r;
+        kept.mode[m][i] = to_float(f);
         out.mode[m][i] = f;
         for (int j = 0; j < 3; ++j)
           out.hourglass.m[i][j] -= f * pulled[m][j];
