@@ -58,10 +58,6 @@ HexMesh cube(const int n, const double h)
   { return GlobalIndex((k * (n + 1) + j) * (n + 1) + i); };
   constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  std::array<std::array<double, 3>, 8> gradient;
-  for (int a = 0; a < 8; ++a)
-    for (int d = 0; d < 3; ++d)
-      gradient[a][d] = (corner[a][d] - 0.5) / (2. * h);
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i)
@@ -74,7 +70,6 @@ HexMesh cube(const int n, const double h)
         for (int a = 0; a < 8; ++a)
           cell[a] = node(i + corner[a][0], j + corner[a][1], k + corner[a][2]);
         mesh.cells.push_back(cell);
-        mesh.mean_gradient.push_back(gradient);
         mesh.volume.push_back(h * h * h);
       }
   return mesh;

@@ -69,6 +69,8 @@ public:
     Hexahedra::list_memory(table);
     table.add("geometry of cells", geometry);
     table.add("motion of cells", motion);
+    table.add("modes at rest", reference_modes);
+    table.add("modal forces", last_forces);
   }
 
 protected:
