@@ -187,7 +187,6 @@ TEST(KernelUpdate, the_linearized_body_is_the_step_of_a_small_motion)
       NodalState &n = body.nodes();
       const std::unique_ptr<Stabilization> form = options.stabilization();
       form->allocate(body.rooms());
-      form->carry_bonds(body.rooms().bonds);
       form->renew_ghosts(body.rooms());
       form->follow_functions(body.rooms());
       std::mt19937 random(3);
