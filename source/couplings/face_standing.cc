@@ -86,6 +86,32 @@ const FaceStanding::Shape &FaceStanding::shape(const std::size_t face) const
   return shape;
 }
 
+bool FaceStanding::looks(const Shape &face, const Side *const side)
+{
+  return side == nullptr ||
+         !(dot(face.normal, side->direction) < side->least_cosine);
+}
+
+std::ptrdiff_t FaceStanding::nearest_center(const NearFaces &node,
+                                            const Side *const side) const
+{
+  const Vec p = halo.position[node.slot];
+  std::ptrdiff_t nearest = -1;
+  double least = 0.;
+  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  {
+    const std::size_t f = face_of_node[k];
+    const Shape &face = shape(f);
+    const double square = norm_square(p - face.ball.center);
+    if ((nearest < 0 || square < least) && looks(face, side))
+    {
+      nearest = f;
+      least = square;
+    }
+  }
+  return nearest;
+}
+
 std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
                                      FaceProjection &best,
                                      const Side *const side) const
@@ -94,20 +120,22 @@ std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
   const double touching = 1e-6 * node.spacing;
   const auto approach = [&](const std::size_t f, const FaceProjection &to)
   { return -dot(velocity_against(node, f, to), to.face_normal); };
+  // The face with the nearest center leaves few others to be looked at.
+  const std::ptrdiff_t first = nearest_center(node, side);
+  if (first < 0)
+    return -1;
+  const FaceProjection on_first = project_on_face(p, places(first));
+  // With a margin, so that faces with the same closest point stay in.
+  const double bound = 1.001 * std::sqrt(on_first.distance_square) + touching;
   std::ptrdiff_t closest = -1;
   for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
     const std::size_t f = face_of_node[k];
     const Shape &face = shape(f);
-    // With a margin, so that faces with the same closest point stay in.
-    if (closest >= 0 &&
-        face.ball.is_farther(p, 1.001 * std::sqrt(best.distance_square) +
-                                    touching))
+    if (face.ball.is_farther(p, bound) || !looks(face, side))
       continue;
-    if (side != nullptr &&
-        dot(face.normal, side->direction) < side->least_cosine)
-      continue;
-    const FaceProjection projection = project_on_face(p, places(f));
+    const FaceProjection projection =
+        f == std::size_t(first) ? on_first : project_on_face(p, places(f));
     const bool is_tie =
         std::abs(projection.distance_square - best.distance_square) <=
         1e-10 * best.distance_square;

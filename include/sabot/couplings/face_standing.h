@@ -121,6 +121,11 @@ private:
   };
   /** Found once after the halo has moved. */
   const Shape &shape(const std::size_t face) const;
+  /** Whether the face is of the side; all are of none. */
+  static bool looks(const Shape &face, const Side *const side);
+  /** Of a node's faces of the side; -1: there is none. */
+  std::ptrdiff_t nearest_center(const NearFaces &node,
+                                const Side *const side) const;
   /** Velocity of the node against the face's closest point [m/s]. */
   Vec velocity_against(const NearFaces &node, const std::ptrdiff_t face,
                        const FaceProjection &projection) const;
