@@ -172,8 +172,9 @@ class FaceBuckets
 public:
   FaceBuckets(const std::vector<FaceNodes> &faces, const std::size_t n_bodies,
               const double reach)
-      : boxes(faces.size()), first_face(n_bodies + 1, 0)
+      : first_face(n_bodies + 1, 0)
   {
+    std::vector<Box> boxes(faces.size());
     for (const FaceNodes &face : faces)
       balls.emplace_back(face.x);
     // Faces of a body are contiguous.
@@ -207,13 +208,13 @@ public:
     for (const std::int32_t *item = near.first; item != near.second; ++item)
     {
       const std::int64_t f = first_face[body] + *item;
-      if (boxes[f].contains(x) && !balls[f].is_farther(x, distance))
+      const double far = distance + balls[f].radius;
+      if (norm_square(x - balls[f].center) <= far * far)
         action(f);
     }
   }
 
 private:
-  std::vector<Box> boxes;
   std::vector<FaceBall> balls;
   std::vector<std::size_t> first_face; // of each body
   std::vector<BoxBuckets> buckets;     // per body

@@ -46,8 +46,10 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
-      // Most bonds are between two that are known to be of one piece.
-      if ((j < n && parent[i] == parent[j]) || !joins_pieces(failure, i, j))
+      // A bond stands at both ends; most are between two that are known to be
+      // of one piece.
+      if ((j < n && (j < i || parent[i] == parent[j])) ||
+          !joins_pieces(failure, i, j))
         continue;
       if (j < n)
       {
