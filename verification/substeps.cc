@@ -71,8 +71,8 @@ private:
 std::string of_ratio(const double ratio, const unsigned int most)
 {
   char text[80];
-  std::snprintf(text, sizeof(text), "cells %g times finer, %s: ", ratio,
-                most > 1 ? "substeps" : "one step for all");
+  std::snprintf(text, sizeof(text),
+                "cells %g times finer, up to %u steps: ", ratio, most);
   return text;
 }
 
@@ -97,19 +97,21 @@ void strike(const double ratio, const unsigned int most,
     world.advance(0.9);
     watch.look();
   }
+  // More than two make a softer blow: not the standard, and told, not judged.
+  const auto kind = most > 2 ? Check::Kind::reported : Check::Kind::near;
   const std::string what = of_ratio(ratio, most);
   checks.push_back({what + "velocity of the struck bar", v,
-                    world.bodies[1]->measure().velocity[0], 0.02 * v, "m/s",
-                    "equal bars exchange velocities"});
+                    world.bodies[1]->measure().velocity[0], 0.01 * v, "m/s",
+                    "equal bars exchange velocities", kind});
   checks.push_back({what + "momentum after over before, less one", 0.,
                     world.momenta()[0] / momentum - 1., 1e-12, "1",
                     "impulses are equal and opposite"});
   checks.push_back({what + "energy residual", 0., watch.residual_share(), 1e-3,
                     "1", "energy balance", Check::Kind::at_most});
-  if (most > 1)
-    checks.push_back({what + "steps of the fine bar within one", ratio,
-                      world.stepper.mean_substeps(*world.bodies[1]),
-                      0.25 * ratio, "1", "ratio of the stable steps"});
+  const double expected = std::min<double>(most, ratio);
+  checks.push_back({what + "steps of the fine bar within one", expected,
+                    world.stepper.mean_substeps(*world.bodies[1]),
+                    0.35 * expected, "1", "ratio of the stable steps"});
 }
 
 /** A fine block on a clamped coarse one under a weight that presses it, over
@@ -164,7 +166,7 @@ std::vector<Check> substeps()
 {
   std::vector<Check> checks;
   for (const double ratio : {2., 4.})
-    for (const unsigned int most : {1u, 16u})
+    for (const unsigned int most : {1u, 2u, 4u})
       strike(ratio, most, checks);
   for (const double ratio : {2., 3., 4.})
     for (const double factor : {0.45, 0.7, 0.9})

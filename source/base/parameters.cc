@@ -124,7 +124,9 @@ void Parameters::declare_knob(const std::string &name,
                               const Pattern &pattern,
                               const std::string &meaning)
 {
-  declare_entry(name, standard, pattern, meaning);
+  const auto other = standards.find(name);
+  declare_entry(name, other == standards.end() ? standard : other->second,
+                pattern, meaning);
   mark_as_knob(name);
 }
 

@@ -109,6 +109,7 @@ CostPlan plan_cost(Scene &scene, const PhysicsPlan &physics,
     if (steps.empty())
     {
       plan.first_stable_step = proposal.dt;
+      plan.accuracy = scene.settings.accuracy;
       plan.limiter = proposal.limiter;
     }
     steps.push_back(stepper.choose(proposal));

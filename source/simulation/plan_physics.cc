@@ -1,4 +1,5 @@
 // Which physics a scene needs, from dimensionless numbers.
+#include "sabot/simulation/accuracy.h"
 #include "sabot/simulation/plan_facts.h"
 #include "sabot/simulation/zone_verdict.h"
 
@@ -251,6 +252,7 @@ nlohmann::ordered_json to_json(const PhysicsPlan &physics, const CostPlan &cost)
     plan["bodies"][item.body] = {{item.kind, item.n},
                                  {"neighbors", item.neighbors}};
   plan["stable_step"] = cost.first_stable_step;
+  plan["accuracy"] = cost.accuracy;
   plan["limiter"] = cost.limiter;
   plan["steps"] = cost.steps;
   plan["seconds_per_step"] = cost.seconds_per_step;
@@ -289,6 +291,8 @@ std::string to_text(const PhysicsPlan &physics, const CostPlan &cost)
          (cost.seconds < 120. ? text("%.0f s", cost.seconds)
                               : text("%.1f minutes", cost.seconds / 60.)) +
          " on this machine, as busy as it is now\n";
+  out += "  accuracy " + cost.accuracy + ": " + Accuracy::price(cost.accuracy) +
+         "\n";
   out += text("  memory %.0f MB, files %.1f MB", 1e-6 * cost.memory_bytes,
               1e-6 * cost.output_bytes) +
          text(", each checkpoint %.1f MB\n", 1e-6 * cost.checkpoint_bytes);

@@ -236,6 +236,14 @@ void Run::loop()
   }
 }
 
+std::vector<double> Run::substeps() const
+{
+  std::vector<double> mean;
+  for (const auto &body : scene.bodies)
+    mean.push_back(stepper.mean_substeps(*body));
+  return mean;
+}
+
 double Run::items_of_rank() const
 {
   double items = 0.;
@@ -302,7 +310,8 @@ void Run::write_result(const std::string &status, const std::string &reason)
       status,         reason,
       n_ranks,        stepper.steps(),
       stepper.time(), earlier_seconds + seconds_since_start(),
-      smallest_step,  message_rates(step_messages, communicator)};
+      smallest_step,  message_rates(step_messages, communicator),
+      substeps()};
   const nlohmann::ordered_json result =
       make_result(scene, summary, balance, forces, control_shares, step_shares,
                   timers, zones, communicator);
@@ -321,6 +330,11 @@ void Run::write_result(const std::string &status, const std::string &reason)
       describe_steps(step_shares, summary.steps, summary.time);
   if (!steps.empty())
     log.line("  " + steps);
+  for (std::size_t b = 0; b < summary.substeps.size(); ++b)
+    if (summary.substeps[b] > 1.)
+      log.line("  body \"" + scene.bodies[b]->name + "\" made " +
+               formatted("%.3g", summary.substeps[b]) +
+               " steps within each of these (mean)");
   if (n_ranks > 1)
     log.line("  " + describe_messages(summary.messages));
   if (status != "failed")

@@ -180,7 +180,8 @@ ordered_json timer_results(const Timers &timers, const int n_ranks)
 
 /** Steps over those that the undeformed particles or cells need by themselves,
     and what limited how many. */
-ordered_json step_results(const StepShares &steps, const RunSummary &summary)
+ordered_json step_results(const Scene &scene, const StepShares &steps,
+                          const RunSummary &summary)
 {
   ordered_json r;
   const bool is_known = steps.own_step() > 0.;
@@ -198,6 +199,10 @@ ordered_json step_results(const StepShares &steps, const RunSummary &summary)
          {"kind", row.kind},
          {"steps", row.steps},
          {"share", double(row.steps) / steps.all_steps()}});
+  r["substeps"] = ordered_json::object();
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (summary.substeps[b] > 1.)
+      r["substeps"][scene.bodies[b]->name] = summary.substeps[b];
   return r;
 }
 
@@ -301,7 +306,7 @@ ordered_json make_result(const Scene &scene, const RunSummary &summary,
     if (m.unit == "J")
       r["energy"][m.name] = number(m.value);
   r["timers"] = timer_results(timers, summary.n_ranks);
-  r["step_limits"] = step_results(steps, summary);
+  r["step_limits"] = step_results(scene, steps, summary);
   r["messages_per_step"] = message_results(summary.messages);
   add_couplings(scene, r);
   add_loads(scene, r);

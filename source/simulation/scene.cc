@@ -7,6 +7,7 @@
 #include "sabot/couplings/self_finding_zone.h"
 #include "sabot/couplings/symmetry_walls.h"
 #include "sabot/geometry/partition.h"
+#include "sabot/simulation/accuracy.h"
 #include "sabot/simulation/body_assembly.h"
 #include "sabot/simulation/scene_checks.h"
 
@@ -66,6 +67,7 @@ std::vector<std::string> Scene::names_of(const std::string &list) const
 void Scene::read_settings()
 {
   settings.title = prm.get("Title");
+  settings.accuracy = prm.get(Accuracy::entry);
   settings.end_time = get_quantity(prm, "End time");
   settings.step_factor = get_quantity(prm, "Step factor");
   if (settings.step_factor > 1.)

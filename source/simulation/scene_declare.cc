@@ -2,6 +2,7 @@
 #include "sabot/base/text.h"
 #include "sabot/bodies/discretization.h"
 #include "sabot/couplings/coupling_builder.h"
+#include "sabot/simulation/accuracy.h"
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ void declare_top(Parameters &prm)
   prm.declare_entry("Title", "", any_text(), "What the scene shows; one line.");
   prm.declare_entry("End time", "0.1 ms", quantity(Dimension::time, 1e-12, 1e3),
                     "Physical time at which the run ends.");
+  Accuracy::declare(prm);
   prm.declare_knob(
       "Step factor", "0.9", quantity(Dimension::none, 0.01, 2.),
       "Step over the least stable step of bodies and couplings, an "
@@ -28,11 +30,12 @@ void declare_top(Parameters &prm)
   prm.declare_knob("Largest step", "1 s", quantity(Dimension::time, 1e-15, 1.),
                    "Upper bound of the step.");
   prm.declare_knob(
-      "Largest number of substeps", "8", integer(1, 64),
+      "Largest number of substeps", "2", integer(1, 16),
       "Steps that a body may make within one step of the scene, so that small "
       "or squeezed cells do not rule the steps of all; of bodies that others "
       "meet by contact only, not of tied, converting or driven ones. 1: all "
-      "bodies take the same steps.");
+      "bodies take the same steps. More than 2 soften blows: 3 % of the speed "
+      "at 3, 6 % at 4 (\"substeps\").");
   prm.declare_entry("Energy residual limit", "0.05",
                     quantity(Dimension::none, 1e-6, 1e3),
                     "The run stops with exit code 2 when the energy balance "
@@ -213,6 +216,9 @@ void declare_bodies(Parameters &prm, const ParameterFile *file)
 
 void Scene::declare(Parameters &prm, const ParameterFile *file)
 {
+  if (file != nullptr)
+    prm.set_standards(
+        Accuracy::standards(file->value(Accuracy::entry, Accuracy::standard)));
   declare_top(prm);
   declare_materials(prm, file);
   declare_bodies(prm, file);

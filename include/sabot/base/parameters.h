@@ -4,6 +4,7 @@
 #include "sabot/base/dimension.h"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -107,6 +108,12 @@ public:
       these with the values in force. */
   void declare_knob(const std::string &name, const std::string &standard,
                     const Pattern &pattern, const std::string &meaning);
+  /** Defaults of knobs, by name, that stand in place of those that
+      declare_knob() gets, wherever such a knob is declared from now on. */
+  void set_standards(const std::map<std::string, std::string> &of_knobs)
+  {
+    standards = of_knobs;
+  }
   /** Makes a declared entry of the present subsection a knob. */
   void mark_as_knob(const std::string &name);
   /** Path and value of all knobs, in the order of their declaration. */
@@ -139,6 +146,7 @@ private:
   std::vector<std::string> section;                // present
   std::set<std::vector<std::string>> declared;     // sections and name
   std::vector<std::vector<std::string>> all_knobs; // sections and name
+  std::map<std::string, std::string> standards;    // of knobs, set_standards()
 };
 
 /** Enters Section/name of the parameters while it lives: also an exception

@@ -108,6 +108,7 @@ struct CostPlan
    * couplings, and the mean of the second half of the steps made.
    */
   double first_stable_step, mean_step; // [s]
+  std::string accuracy;                // the scene's choice
   std::string limiter;
   double steps, seconds_per_step, set_up_seconds, seconds; // wall
   double memory_bytes, output_bytes, checkpoint_bytes;

@@ -93,6 +93,8 @@ private:
   bool keeps_folders();
   /** Whether an output that reads the histories falls due now. */
   bool record_due() const;
+  /** Mean over the steps of those that each body made within one. */
+  std::vector<double> substeps() const;
   /** Particles and cells of all bodies over the number of ranks. */
   double items_of_rank() const;
   /** Of all bodies, by number. Collective. */

@@ -33,6 +33,7 @@ struct RunSummary
    */
   double smallest_step; // stable [s]; of no meaning without steps
   std::vector<MessageRates> messages;
+  std::vector<double> substeps; // mean of each body, in the scene's order
 };
 
 /**

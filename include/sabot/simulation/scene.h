@@ -30,7 +30,7 @@ namespace sabot
  */
 struct RunSettings
 {
-  std::string title;
+  std::string title, accuracy;
   double end_time, step_factor, largest_step, energy_limit;
   // Between checkpoints, 0: none for this reason.
   double checkpoint_interval, checkpoint_wall_time; // [s]
