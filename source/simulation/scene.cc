@@ -23,6 +23,7 @@ Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
   declare(prm, &file);
   file.parse_into(prm, [](Parameters &all) { declare(all, nullptr); });
   check_names(prm);
+  Accuracy::scale_spacings(prm, names_of("bodies"));
   read_settings();
   build_materials(file);
   BodyAssembly assembly(prm, file, materials);

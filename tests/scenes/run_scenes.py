@@ -715,6 +715,35 @@ class Scenes(unittest.TestCase):
                 open(os.path.join(again, "history.h5"), "rb") as b:
             self.assertEqual(a.read(), b.read())
 
+    def test_accuracy_sets_what_the_scene_leaves_alone(self):
+        # The preset's factor on spacings is spent once; what is set stays.
+        for choice, settings, expected in (
+                ("balanced", (), ("1 mm", "5", "0.9")),
+                ("fast", (), ("0.0015 m", "10", "0.9")),
+                ("reference", (), ("0.00075 m", "1", "0.5")),
+                ("reference", ("Spacing factor=2", "Step factor=0.7"),
+                 ("0.002 m", "1", "0.7"))):
+            out = folder("accuracy")
+            settings += ("Accuracy=" + choice, "End time=0.2 us")
+            arguments = [a for s in settings for a in ("--set", s)]
+            done = sabot("run", BAR, "-o", out, "--quiet", "--overwrite",
+                         *arguments)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            knobs = result(out)["knobs"]
+            self.assertEqual(
+                tuple(knobs[k] for k in ("Bodies/block/Nodal spacing",
+                                         "Bodies/block/Failure check interval",
+                                         "Step factor")), expected)
+            self.assertEqual(knobs["Spacing factor"], "1")
+            again = folder("accuracy-again")
+            done = sabot("run", os.path.join(out, "parameters.prm"), "-o",
+                         again, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual(result(again)["bodies"], result(out)["bodies"])
+        done = sabot("check", BAR, "--set", "Accuracy=best")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("fast, balanced, reference", done.stdout)
+
     def test_every_shipped_scene_is_valid(self):
         scenes = [s for s in glob.glob(os.path.join(SOURCE, "prm/*/*.prm"))
                   if "/materials/" not in s and "/studies/" not in s]

@@ -3,15 +3,16 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace sabot
 {
 class Parameters;
 
 /**
- * The entry `Accuracy`: how the knobs that a scene leaves alone are set. What a
- * scene sets itself stays. Spacings and zones are no part of it: they are the
- * scene's, and most of the error (doc/accuracy.md has both, measured).
+ * The entry `Accuracy`: how the knobs that a scene leaves alone are set, the
+ * factor on its spacings among them. What a scene sets itself stays. Errors and
+ * costs are measured on three scenes (doc/accuracy.md).
  */
 struct Accuracy
 {
@@ -24,6 +25,11 @@ struct Accuracy
   static std::map<std::string, std::string> standards(const std::string &name);
   /** What the choice costs and how far off it is, for the plan. */
   static std::string price(const std::string &name);
+  /** Multiply nodal spacings and cell sizes of @p bodies by the entry `Spacing
+      factor`, and set that to 1: the expanded parameters say what was run, and
+      a resumed run is not scaled again. Meshes from files stay. */
+  static void scale_spacings(Parameters &prm,
+                             const std::vector<std::string> &bodies);
 };
 } // namespace sabot
 
