@@ -62,7 +62,7 @@ def benchmark(program, pattern):
 
 def run(scene, folder, *settings, ranks=1):
     command = [os.path.join(BUILD, "sabot"), "run", scene, "-o", folder,
-               "--quiet"]
+               "--quiet", "--overwrite"]
     for setting in settings:
         command += ["--set", setting]
     if ranks > 1:
