@@ -27,7 +27,7 @@ std::vector<unsigned int> Stepper::substeps(const StepProposal &proposal,
 
 double Stepper::mean_substeps(const Body &body) const
 {
-  const Substeps::Member *const member = integrator.substeps.of(body);
+  const Substeps::Member *const member = integrator.substeps.of(body.id);
   return member == nullptr || n_steps == 0 ? 1.
                                            : double(member->made) / n_steps;
 }

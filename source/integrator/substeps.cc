@@ -39,11 +39,6 @@ Substeps::Member *Substeps::of(const Body &body)
   return at == members.end() ? nullptr : &*at;
 }
 
-const Substeps::Member *Substeps::of(const Body &body) const
-{
-  return const_cast<Substeps *>(this)->of(body);
-}
-
 const Substeps::Member *Substeps::of(const std::size_t b) const
 {
   const auto at =

@@ -58,10 +58,8 @@ public:
             const std::vector<std::unique_ptr<Load>> &loads,
             const std::vector<std::unique_ptr<Coupling>> &couplings,
             const unsigned int most);
-  bool any() const { return !members.empty(); }
   /** Null for a body that may not. */
   Member *of(const Body &body);
-  const Member *of(const Body &body) const;
   /** Null where body number @p b may not. */
   const Member *of(const std::size_t b) const;
   /** The scene's step and the body that decides on it, of the stable steps
