@@ -19,6 +19,7 @@ public:
   explicit WhereTold(std::shared_ptr<PlaceTest> where) : where(std::move(where))
   {
   }
+  Onset onset() const override { return {}; }
   void mark(CellConditions &cells, std::vector<char> &unfit) const override
   {
     const auto centers = cells.centers();

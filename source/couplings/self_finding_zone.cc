@@ -37,6 +37,12 @@ void SelfFindingZone::initialize()
 
 bool SelfFindingZone::change_bodies(const unsigned int step)
 {
+  if (told)
+  {
+    const std::vector<std::size_t> cells = source.cells_in(told);
+    told = nullptr;
+    return convert(cells, step);
+  }
   if (step % options.interval != 0)
     return false;
   std::vector<char> is_failed(host.nodes().size(), 0);

@@ -38,6 +38,13 @@ public:
     if (!context.bodies[follower]->moves_node_by_node())
       throw InputError(path + "/Follower",
                        "a rigid body cannot follow another");
+    if (context.bodies[follower]->particle_sink() != nullptr)
+      throw InputError(path + "/Follower",
+                       "\"" + prm.get("Follower") +
+                           "\" is a self-finding zone, whose particles come "
+                           "while the run goes on; with its host it is one "
+                           "without a tie, and another body is to be tied to "
+                           "the host, cells at which stay cells");
     context.tied.insert({follower, leader});
     if (!context.tied_nodes)
       context.tied_nodes = std::make_shared<TiedNodes>();

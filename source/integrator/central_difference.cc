@@ -264,8 +264,18 @@ StepProposal CentralDifference::propose(const bool interrupted) const
     decides = n;
   }
   proposal.body_steps.assign(least.begin(), least.begin() + n);
+  proposal.coupling_step = least[n];
   name_limiter(least[decides], decides, proposal);
   return proposal;
+}
+
+double CentralDifference::step_of(const std::vector<double> &bodies_own,
+                                  const double couplings_least) const
+{
+  double step = couplings_least;
+  std::size_t decides = bodies.size();
+  substeps.bound(bodies, bodies_own, step, decides);
+  return step;
 }
 
 void CentralDifference::name_limiter(const double dt, const std::size_t decides,

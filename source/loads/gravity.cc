@@ -2,14 +2,12 @@
 #include "sabot/loads/nodal_forces.h"
 #include "sabot/loads/time_course.h"
 
-#include <numeric>
-
 namespace sabot
 {
 namespace
 {
 /** f_a = m_a g(t) with the lumped masses: those of ties' followers, too, whose
-    forces the ties hand on. */
+    forces the ties hand on, and of particles that come. */
 class Gravity : public Load
 {
 public:
@@ -24,17 +22,14 @@ public:
   void initialize() override
   {
     for (Body *const body : bodies)
-    {
-      std::vector<std::size_t> all(body->nodes().n_owned);
-      std::iota(all.begin(), all.end(), 0);
-      weights.emplace_back(*body, std::move(all));
-    }
+      weights.emplace_back(*body);
   }
   void add_forces(const double time) override
   {
     const Vec now = course->value(time) * acceleration;
     for (NodalForces &weight : weights)
     {
+      weight.follow_body();
       const std::vector<double> &mass = weight.body.nodes().lumped_mass;
       for (std::size_t i = 0; i < weight.force.size(); ++i)
         weight.force[i] = mass[i] * now;

@@ -9,6 +9,23 @@ NodalForces::NodalForces(Body &body, std::vector<std::size_t> some_nodes)
 {
 }
 
+NodalForces::NodalForces(Body &body) : body(body), is_on_all(true)
+{
+  follow_body();
+}
+
+void NodalForces::follow_body()
+{
+  const std::size_t n = body.nodes().n_owned;
+  if (!is_on_all || nodes.size() == n)
+    return;
+  while (nodes.size() < n)
+    nodes.push_back(nodes.size());
+  force.resize(n, Vec{});
+  work.resize(n, 0.);
+  impulse.resize(n, Vec{});
+}
+
 void NodalForces::add()
 {
   NodalState &state = body.nodes();
@@ -54,6 +71,7 @@ Resultant NodalForces::resultant(const std::string &name,
 
 void NodalForces::visit_state(StateVisitor &visitor)
 {
+  follow_body(); // whose nodes have been restored
   visitor.visit_array("force of " + body.name, force);
   visitor.visit_array("work on " + body.name, work);
   visitor.visit_array("impulse on " + body.name, impulse);

@@ -70,6 +70,11 @@ std::vector<PlannedBody> find_body_facts(const Scene &scene)
       b.is_cut[plane.axis] = true;
     bodies.push_back(b);
   }
+  for (const GrowingZone &zone : scene.growing) // without points of its own
+  {
+    bodies[zone.zone].low = bodies[zone.host].low;
+    bodies[zone.zone].high = bodies[zone.host].high;
+  }
   return bodies;
 }
 

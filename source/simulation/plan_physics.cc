@@ -254,6 +254,14 @@ nlohmann::ordered_json to_json(const PhysicsPlan &physics, const CostPlan &cost)
   plan["stable_step"] = cost.first_stable_step;
   plan["accuracy"] = cost.accuracy;
   plan["limiter"] = cost.limiter;
+  for (const CostPlan::Conversion &c : cost.conversions)
+    plan["conversions"][c.zone] = {{"host", c.host},
+                                   {"particles", c.n_particles},
+                                   {"first_time", c.first},
+                                   {"last_time", c.last},
+                                   {"basis", c.basis}};
+  if (!cost.conversions.empty())
+    plan["conversion_seconds"] = cost.conversion_seconds;
   plan["steps"] = cost.steps;
   plan["seconds_per_step"] = cost.seconds_per_step;
   plan["wall_seconds"] = cost.seconds;
@@ -282,6 +290,18 @@ std::string to_text(const PhysicsPlan &physics, const CostPlan &cost)
         (item.neighbors > 0. ? text(" with %.1f neighbors each", item.neighbors)
                              : "") +
         "\n";
+  for (const CostPlan::Conversion &c : cost.conversions)
+    out +=
+        "  cells of " + c.host + " that turn into " + c.zone + ": " +
+        (c.n_particles > 0.
+             ? text("to about %.0f particles", c.n_particles) +
+                   text(", from %.3g to %.3g us\n", 1e6 * c.first, 1e6 * c.last)
+             : "none is foreseen\n") +
+        "      " + c.basis + "\n";
+  if (!cost.conversions.empty())
+    out += text("      which adds %.3g s; measured: within a factor of 2 in "
+                "particles and cost (doc/performance.md)\n",
+                cost.conversion_seconds);
   out += "  stable step " + text("%.3g s", cost.first_stable_step) +
          " at the start, limited by " + cost.limiter + "\n";
   out += "  steps " +

@@ -4,7 +4,6 @@
 #include "sabot/base/error_report.h"
 #include "sabot/couplings/closing_limit.h"
 #include "sabot/couplings/coupling_builder.h"
-#include "sabot/couplings/self_finding_zone.h"
 #include "sabot/couplings/symmetry_walls.h"
 #include "sabot/geometry/partition.h"
 #include "sabot/simulation/accuracy.h"
@@ -160,8 +159,8 @@ std::set<std::pair<int, int>> Scene::build_couplings()
          item.builder->build(prm, "Couplings/" + item.name, item.name, context))
       list.push_back(std::move(coupling));
   }
-  for (const GrowingZone &zone : growing)
-    last.insert(last.begin(), self_finding_zone(zone, context));
+  for (GrowingZone &zone : growing)
+    last.insert(last.begin(), make_self_finding_zone(zone, context));
   auto planes = std::make_unique<SymmetryWalls>(body_pointers(), communicator);
   if (planes->any())
     couplings.push_back(std::move(planes));
@@ -179,6 +178,7 @@ std::set<std::pair<int, int>> Scene::build_couplings()
                            "\" is also what a part of "
                            "another coupling is called in the results; rename "
                            "it");
+  refuse_lone_hosts(*this);
   warn_of_lone_debris();
   for (const CarvedZone &zone : zones)
     if (context.tied.count({zone.zone, zone.host}) == 0)
@@ -186,19 +186,6 @@ std::set<std::pair<int, int>> Scene::build_couplings()
                          "\" is carved from \"" + bodies[zone.host]->name +
                          "\" but not tied to it");
   return context.tied;
-}
-
-std::unique_ptr<Coupling>
-Scene::self_finding_zone(const GrowingZone &zone,
-                         const CouplingContext &context) const
-{
-  SelfFindingOptions options{zone.zone, zone.host, zone.request.interval, {}};
-  if (zone.start)
-    options.is_start = [zone](const std::array<double, 3> &place)
-    { return zone.start->contains(zone.turn.origin(place)); };
-  return std::make_unique<SelfFindingZone>(
-      bodies[zone.zone]->name + " in " + bodies[zone.host]->name,
-      body_pointers(), options, communicator, context.tied_nodes);
 }
 
 void Scene::warn_of_lone_debris()

@@ -412,6 +412,62 @@ class Scenes(unittest.TestCase):
             done = sabot("check", scene, "--set", "Bodies/" + entry)
             self.assertEqual(done.returncode, 1, entry + done.stdout)
             self.assertIn(text, done.stdout)
+        done = sabot("check", scene, "--set",
+                     "Couplings/impact/Bodies=projectile, plate")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn('would pass through body "projectile"', done.stdout)
+        for text, words in (
+                ("set List of couplings = impact, debris, zone\n"
+                 "subsection Couplings\nsubsection zone\nset Type = tie\n"
+                 "set Follower = core\nset Leader = plate\nend\nend",
+                 "is a self-finding zone, whose particles come"),
+                ("set List of loads = push\nsubsection Loads\nsubsection push\n"
+                 "set Type = prescribed motion\nset Body = plate\n"
+                 "set Velocity = 0 m/s, 0 m/s, 10 m/s\nend\nend",
+                 "which are not moved with it"),
+                ("set List of loads = push\nsubsection Loads\nsubsection push\n"
+                 "set Type = pressure\nset Body = core\nset Faces = -z\n"
+                 "set Pressure = 10 MPa\nend\nend",
+                 "cells at which stay cells")):
+            with open(os.path.join(WORK, "growing-bad.prm"), "w") as file:
+                file.write("include %s\n%s\n" % (scene, text))
+            done = sabot("check", file.name)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertEqual(done.stdout.count("\n"), 1, done.stdout)
+            self.assertIn(words, done.stdout)
+
+    def test_loads_on_a_body_whose_cells_turn(self):
+        scene = os.path.join(SOURCE, "tests/scenes/growing.prm")
+        histories = []
+        for ranks in (1, 2, 3):
+            out = folder("growing%d" % ranks)
+            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(out, "history.h5"), "rb") as file:
+                histories.append(file.read())
+        self.assertEqual(histories[0], histories[1])
+        self.assertEqual(histories[0], histories[2])
+        r = result(out)
+        n = r["found_zones"]["zone"]["particles"]
+        self.assertGreater(n, 3 * 36)  # more than those of the start
+        # The cells at the loaded face stay.
+        self.assertLessEqual(r["found_zones"]["zone"]["size"][0], 7e-3 + 1e-12)
+        self.assertLess(r["energy_residual_max"], 2e-3)
+        self.assertLess(r["momentum_residual_max"], 1e-9)
+        # All of it falls, whatever it is made of by then.
+        mass = 2700 * 8e-3 * 5e-3 * 5e-3
+        total = [sum(b["mass"] * b["velocity"][d]
+                     for b in r["bodies"].values()) for d in range(3)]
+        self.assertAlmostEqual(total[2] / mass, 30. - 2e6 * 8e-6, delta=1e-9)
+        weight = sum(part["force"][2]
+                     for part in r["loads"]["weight"]["resultants"])
+        self.assertAlmostEqual(weight, -2e6 * mass, delta=1e-9 * 2e6 * mass)
+        # The loaded faces are all there to the end.
+        pull = r["loads"]["pull"]["resultants"][0]
+        self.assertAlmostEqual(total[0] - 10. * mass, pull["impulse"][0],
+                               delta=1e-9 * pull["impulse"][0])
+        self.assertGreater(pull["force"][0], 0.8 * 300e6 * 25e-6)
+        self.resumes_as(histories[0], "growing-parted", 0.5 * r["steps"], scene)
 
     def test_a_rod_enters_armor_on_1_and_2_ranks(self):
         scene = os.path.join(SOURCE, "prm/penetration/coarse.prm")
@@ -1186,6 +1242,43 @@ class Scenes(unittest.TestCase):
             for name, ratio in ratios.items():
                 self.assertLess(ratio, 1.5, name)
                 self.assertGreater(ratio, 1 / 1.5, name)
+
+    def test_a_plan_foresees_conversions_within_a_factor_of_2(self):
+        # Ratios of more scenes are in doc/performance.md.
+        scene = os.path.join(SOURCE, "prm/perforation/self-finding.prm")
+        coarse = ("--set", "Bodies/plate/Cell size=1.6 mm",
+                  "--set", "Bodies/projectile/Cell size=1.6 mm",
+                  "--set", "List of outputs=averages")
+        for other in ("Radius=5 mm", "Initial velocity=0 m/s, 0 m/s, -500 m/s"):
+            settings = coarse + ("--set", "Bodies/projectile/" + other)
+            for attempt in range(5):
+                file = os.path.join(WORK, "plan.json")
+                done = sabot("plan", scene, "--json", file, *settings)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.assertIn("cells of plate that turn into core: to about",
+                              done.stdout)
+                self.assertIn("from its path", done.stdout)
+                with open(file) as stream:
+                    plan = json.load(stream)
+                out = folder("foreseen")
+                done = sabot("run", scene, "-o", out, "--quiet", *settings)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                r = result(out)
+                ratios = {
+                    "particles": plan["conversions"]["core"]["particles"] /
+                    r["found_zones"]["core"]["particles"],
+                    "steps": plan["steps"] / r["steps"],
+                    "time": plan["wall_seconds"] / r["wall_seconds"]}
+                print(other, ratios)
+                if 0.5 < ratios["time"] < 2.:
+                    break
+            for name, ratio in ratios.items():
+                self.assertLess(ratio, 2., name)
+                self.assertGreater(ratio, 0.5, name)
+        done = sabot("plan", scene, *coarse, "--set",
+                     "Bodies/projectile/Initial velocity=0 m/s, 0 m/s, 970 m/s")
+        self.assertIn("none is foreseen\n      what flies does not come its way",
+                      done.stdout)
 
     def test_a_quarter_needs_the_zone_of_the_whole(self):
         def zone(scene, *settings):

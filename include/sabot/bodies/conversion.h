@@ -77,14 +77,16 @@ public:
   virtual void convert_by(
       std::vector<std::shared_ptr<const ConversionCriterion>> criteria) = 0;
   /** Cells never turn that have one of these nodes, by number in the body:
-     those of ties, and what moves by prescription. The same on every rank. */
+     those of ties, of loaded faces, and what moves by prescription. The same on
+     every rank. */
   virtual void keep_around(const std::vector<GlobalIndex> &nodes) = 0;
   /** Numbers of this rank's cells that shall turn now. @p is_failed [all local
       nodes]: beside broken bonds; ghosts are filled here. Collective; ranks
       that have a cell agree on it. */
   virtual std::vector<std::size_t>
   unfit_cells(std::vector<char> &is_failed) = 0;
-  /** Of the undeformed mesh, those whose center @p is_inside. */
+  /** Of the undeformed mesh, those that may turn and whose center
+      @p is_inside. */
   virtual std::vector<std::size_t>
   cells_in(const std::function<bool(const std::array<double, 3> &)> &is_inside)
       const = 0;

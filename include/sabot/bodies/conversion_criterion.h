@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,14 @@ public:
   virtual void check(const Material &, const std::string & /*path*/) const {}
   /** Whether it asks for step_ratio(). */
   virtual bool needs_steps() const { return false; }
+  /** How far metal flows until it speaks, for estimates before a run. */
+  struct Onset
+  {
+    /** Effective plastic strain of a cell; nothing: where bonds fail. */
+    std::optional<double> strain;
+    double layers = 0.; // of cells ahead of that
+  };
+  virtual Onset onset() const = 0;
   /** Sets the cells that shall turn. Collective. */
   virtual void mark(CellConditions &cells, std::vector<char> &unfit) const = 0;
 };

@@ -45,6 +45,11 @@ public:
                   const SelfFindingOptions &options, MPI_Comm communicator,
                   const std::shared_ptr<TiedNodes> &others);
 
+  /** Places of the undeformed host. */
+  using Region = std::function<bool(const std::array<double, 3> &)>;
+  /** Cells within that turn after the next step, but those that never do:
+      what a run of this scene may come to, for estimates. */
+  void turn_next(Region region) { told = std::move(region); }
   std::string kind() const override { return "conversion"; }
   std::vector<int> joins() const override;
   /** Turns the cells of the start. Collective. */
@@ -85,6 +90,7 @@ private:
   ExactSum lost, hourglass;   // [J]
   ExactSum converted_mass, converted_energy; // [kg], [J]
   std::vector<char> is_failing;              // of particles, while it looks
+  Region told;                               // turns after the next step
 };
 } // namespace sabot
 

@@ -27,8 +27,10 @@ struct StepProposal
   std::string limiter; // body or coupling and item
   bool interrupted;    // some rank was asked to stop
   int source = -1;     // of bodies, then of couplings; -1: nothing limits it
-  /** Stable step of each body by itself [s]. */
+  /** Stable step of each body by itself, and the least that couplings ask for
+      [s]. */
   std::vector<double> body_steps = {};
+  double coupling_step = 0.;
 };
 
 /**
@@ -83,6 +85,10 @@ public:
    * One minimum over ranks for step and interruption, one for who limits it.
    */
   StepProposal propose(const bool interrupted) const;
+  /** The least of the scene where bodies have these stable steps and couplings
+      ask for @p couplings [s]; what propose() makes of those of now. */
+  double step_of(const std::vector<double> &bodies_own,
+                 const double couplings_least) const;
 
   /** Of the state [s], that of positions; grows by dt in advance(). */
   double time = 0.;

@@ -57,6 +57,12 @@ public:
   {
     return integrator.propose(interrupted);
   }
+  /** CentralDifference::step_of(): before factor and limits [s]. */
+  double step_of(const std::vector<double> &bodies,
+                 const double couplings) const
+  {
+    return integrator.step_of(bodies, couplings);
+  }
   /**
    * The step to make now [s].
    *   dt = min(factor dt_stable, largest, growth dt_last),

@@ -23,6 +23,12 @@ class NodalForces
 public:
   /** On owned nodes of @p body, local numbers, ascending. */
   NodalForces(Body &body, std::vector<std::size_t> nodes);
+  /** On all owned nodes of @p body, those that it gains, too. */
+  explicit NodalForces(Body &body);
+
+  /** Take in the nodes that a body on all of which it acts has gained: without
+      force, work and impulse so far. */
+  void follow_body();
 
   /** Add the forces to those of the body. */
   void add();
@@ -38,10 +44,11 @@ public:
   Resultant resultant(const std::string &name, MPI_Comm communicator) const;
 
   Body &body;
-  const std::vector<std::size_t> nodes;
+  std::vector<std::size_t> nodes;
   AlignedVector<Vec> force; // [N], parallel to nodes
 
 private:
+  bool is_on_all = false;
   std::vector<double> work;   // [J], parallel to nodes
   AlignedVector<Vec> impulse; // [N s], parallel to nodes
 };

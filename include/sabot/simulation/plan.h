@@ -115,6 +115,15 @@ struct CostPlan
   /** At least six unless the run ends or goes wrong before. */
   unsigned int calibration_steps;
   std::string problem; // what ended the first steps, if anything did
+  /** What is expected to turn into particles during the run. */
+  struct Conversion
+  {
+    std::string zone, host, basis; // what the estimate rests on, for reading
+    double n_particles;            // at the end
+    double first, last;            // when cells turn [s]
+  };
+  std::vector<Conversion> conversions;
+  double conversion_seconds = 0.; // of `seconds`, what they add
 };
 
 /**

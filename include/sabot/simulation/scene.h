@@ -55,15 +55,21 @@ struct CarvedZone
 };
 
 struct CouplingContext;
+class SelfFindingZone;
 
 /** A zone whose particles cells of its host turn into while the run goes on. */
 struct GrowingZone
 {
-  int zone, host;                 // bodies
-  std::optional<ZoneShape> start; // where particles are from the start
-  Turn turn;                      // of both
-  ConversionRequest request;      // when cells turn
+  int zone, host;                      // bodies
+  std::optional<ZoneShape> start;      // where particles are from the start
+  Turn turn;                           // of both
+  ConversionRequest request;           // when cells turn
+  SelfFindingZone *coupling = nullptr; // what turns them; the scene owns it
 };
+
+/** What turns the cells of a growing zone's host, whose coupling it becomes. */
+std::unique_ptr<Coupling>
+make_self_finding_zone(GrowingZone &zone, const CouplingContext &context);
 
 /**
  * A scene file, read and checked: what its lists name, built by the registries
@@ -164,10 +170,6 @@ private:
   std::set<std::pair<int, int>> build_couplings();
   /** Of bodies that can fail and are in no self-contact. */
   void warn_of_lone_debris();
-  /** What turns cells of its host into particles of a growing zone. */
-  std::unique_ptr<Coupling>
-  self_finding_zone(const GrowingZone &zone,
-                    const CouplingContext &context) const;
   void build_outputs();
   void build_quantities();
   /** Of "List of <list>"; empty where the entry is. */

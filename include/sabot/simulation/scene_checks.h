@@ -33,6 +33,10 @@ std::vector<Outline> take_outlines(const Scene &scene);
  */
 void check_overlaps(const Scene &scene, const std::vector<Outline> &outlines);
 
+/** InputError where a contact knows the cells of a body but not the particles
+    that they turn into. After the couplings have been built. */
+void refuse_lone_hosts(const Scene &scene);
+
 /** Pairs of bodies that the scene joins otherwise than by contact. */
 using BodyPairs = std::set<std::pair<int, int>>;
 

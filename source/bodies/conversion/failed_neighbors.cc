@@ -12,6 +12,7 @@ class FailedNeighbors : public ConversionCriterion
 {
 public:
   explicit FailedNeighbors(const unsigned int layers) : layers(layers) {}
+  Onset onset() const override { return {std::nullopt, double(layers)}; }
   void mark(CellConditions &cells, std::vector<char> &unfit) const override
   {
     const std::vector<char> is_near = cells.near_failure(layers);

@@ -26,6 +26,7 @@ public:
                        "names plastic strain, but the body's material never "
                        "flows; use a law that does, or another criterion");
   }
+  Onset onset() const override { return {limit, 0.}; }
   void mark(CellConditions &cells, std::vector<char> &unfit) const override
   {
     const std::vector<double> strain = cells.state(variable);

@@ -2,6 +2,9 @@
 #include "sabot/base/registry.h"
 #include "sabot/bodies/conversion_criterion.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sabot
 {
 namespace
@@ -15,6 +18,15 @@ public:
   Shape(const double least_jacobian, const double largest_aspect)
       : least_jacobian(least_jacobian), largest_aspect(largest_aspect)
   {
+  }
+  /** Flattened at constant volume, edges over thickness exp(3/2 strain), or
+      sheared by a strain of tan(angle)/sqrt(3); whichever comes first. */
+  Onset onset() const override
+  {
+    const double cosine = std::max(least_jacobian, 1e-3);
+    return {std::min(2. / 3. * std::log(largest_aspect),
+                     std::sqrt((1. / (cosine * cosine) - 1.) / 3.)),
+            0.};
   }
   void mark(CellConditions &cells, std::vector<char> &unfit) const override
   {

@@ -2,6 +2,8 @@
 #include "sabot/base/registry.h"
 #include "sabot/bodies/conversion_criterion.h"
 
+#include <cmath>
+
 namespace sabot
 {
 namespace
@@ -13,6 +15,8 @@ class StableStepShare : public ConversionCriterion
 public:
   explicit StableStepShare(const double limit) : limit(limit) {}
   bool needs_steps() const override { return true; }
+  /** Flattened to that share. */
+  Onset onset() const override { return {-std::log(limit), 0.}; }
   void mark(CellConditions &cells, std::vector<char> &unfit) const override
   {
     const std::vector<double> ratio = cells.step_ratio();

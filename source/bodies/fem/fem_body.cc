@@ -98,7 +98,12 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
         std::make_unique<FemErosion>(options, *material, nodal_state, *cells,
                                      *living, owned_cell, communicator);
   if (conversion.is_on())
-    conversion.set_up(nodes_of_faces(mesh, options.driven_boundary_ids));
+  {
+    std::vector<unsigned int> held = options.driven_boundary_ids;
+    held.insert(held.end(), boundary.loaded_faces().begin(),
+                boundary.loaded_faces().end());
+    conversion.set_up(nodes_of_faces(mesh, held));
+  }
   mesh = HexMesh();
   if (options.mass_scaling.is_on())
     scaling = std::make_unique<FemMassScaling>(

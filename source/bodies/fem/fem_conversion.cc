@@ -17,9 +17,9 @@ void FemConversion::convert_by(
   criteria = std::move(all);
 }
 
-void FemConversion::set_up(const std::vector<GlobalIndex> &driven)
+void FemConversion::set_up(const std::vector<GlobalIndex> &held)
 {
-  keep_around(driven);
+  keep_around(held);
   if (std::any_of(criteria.begin(), criteria.end(),
                   [](const auto &c) { return c->needs_steps(); }))
     body.cells.cell_step.assign(body.cells.size(),
@@ -56,7 +56,7 @@ FemConversion::unfit_cells(std::vector<char> &is_failed)
     criterion->mark(conditions, unfit);
   std::vector<std::size_t> found;
   for (std::size_t e = 0; e < unfit.size(); ++e)
-    if (unfit[e] && (stays.empty() || !stays[living.initial_number(e)]))
+    if (unfit[e] && may_turn(e))
       found.push_back(e);
   return found;
 }
@@ -70,7 +70,7 @@ std::vector<std::size_t> FemConversion::cells_in(
                            .centers();
   std::vector<std::size_t> found;
   for (std::size_t e = 0; e < centers.size(); ++e)
-    if (is_inside(centers[e]))
+    if (may_turn(e) && is_inside(centers[e]))
       found.push_back(e);
   return found;
 }

@@ -46,6 +46,12 @@ public:
   ContactSurface surface(const std::size_t n_owned,
                          const double bulk_modulus) const;
 
+  void keep_faces(const std::vector<unsigned int> &ids) override
+  {
+    kept.insert(kept.end(), ids.begin(), ids.end());
+  }
+  /** Boundary ids of faces that loads have asked for. */
+  const std::vector<unsigned int> &loaded_faces() const { return kept; }
   LoadedSurface
   loaded_surface(const std::vector<unsigned int> &ids) const override;
 
@@ -84,6 +90,7 @@ private:
   /** Symmetry planes through owned nodes that lie on any. */
   std::map<std::size_t, int> n_symmetry_planes;
   double typical_spacing = 0.; // [m]
+  std::vector<unsigned int> kept;
 };
 
 /**

@@ -42,9 +42,9 @@ public:
 
   /** Whether cells may be asked for: convert_by() has been called. */
   bool is_on() const { return on; }
-  /** After the cells were set up; @p driven: nodes of driven faces, by number,
-      around which cells stay. */
-  void set_up(const std::vector<GlobalIndex> &driven);
+  /** After the cells were set up; @p held: nodes of driven and loaded faces, by
+      number, around which cells stay. */
+  void set_up(const std::vector<GlobalIndex> &held);
 
   void convert_by(std::vector<std::shared_ptr<const ConversionCriterion>>
                       criteria) override;
@@ -64,6 +64,11 @@ public:
   void visit_state(StateVisitor &visitor);
 
 private:
+  /** Whether cell @p e may turn. */
+  bool may_turn(const std::size_t e) const
+  {
+    return stays.empty() || !stays[body.living().initial_number(e)];
+  }
   /** Cell @p e into what it hands to one corner, and its states. */
   void share_of(const std::size_t e, NodalMatter::Entry &share,
                 double *states) const;
