@@ -1,6 +1,7 @@
 // Principal values of symmetric tensors, and smooth pressure on a patch.
 #include "sabot/kernels/principal.h"
 #include "sabot/kernels/patch_weights.h"
+#include "sabot/kernels/symmetric.h"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,29 @@ TEST(Principal, tension_is_cut_and_compression_stays)
   const double before = compressed[3];
   cut_tension(compressed);
   EXPECT_EQ(compressed[3], before);
+}
+
+TEST(Principal, the_largest_eigenvalue_is_bounded_closely)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> number;
+  for (int trial = 0; trial < 3000; ++trial)
+  {
+    // Positive semidefinite of rank 1, 2 or 3, of any size; also two or three
+    // equal eigenvalues.
+    const double size = std::pow(10., 12. * number(random));
+    Symmetric m{};
+    if (trial % 4 != 0)
+      for (int k = 0; k < trial % 4; ++k)
+        m.add_outer(size, vec(number(random), number(random), number(random)));
+    else
+      m = {size, size, trial % 8 == 0 ? size : 0.1 * size, 0., 0., 0.};
+    const double s[6] = {m.xx, m.yy, m.zz, m.xy, m.yz, m.xz},
+                 largest = largest_principal(s),
+                 bound = m.largest_eigenvalue_bound();
+    EXPECT_GE(bound, (1. - 1e-12) * largest);
+    EXPECT_LE(bound, 1.03 * largest);
+  }
 }
 
 TEST(Principal, the_middle_eigenvalue)

@@ -1,4 +1,4 @@
-// The stable step of particles: Gershgorin's bound, and by how much it is too
+// The stable step of particles: a bound by rows, and by how much it is too
 // short.
 #include "sabot/bodies/spg/stable_step.h"
 
@@ -13,7 +13,7 @@
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/spg_parts.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
-#include "sabot/kernels/pack.h"
+#include "sabot/bodies/spg/stiffness_bound.h"
 
 #include <Eigen/Dense>
 
@@ -36,82 +36,20 @@ std::vector<double> moving_masses(const NodalState &nodes)
       masses[i] += nodes.added_mass[i];
   return masses;
 }
-
-/** |g| of every bond, ghosts' included, of the particle itself, and the sum of
-    all these [1/m]. Roots are taken four at a time, each row from the start of
-   a pack: equal bits on every number of ranks. */
-void find_gradient_norms(const SpgParts &body, std::vector<double> &of_bond,
-                         std::vector<double> &own, std::vector<double> &sums)
-{
-  const BondList &bonds = body.bonds;
-  const ParticleApproximation &functions = body.approximation;
-  const bool stored = functions.stores_gradients();
-  const Vec *const X = body.fields.kernel_reference_position.data();
-  of_bond.resize(bonds.n_with_ghosts());
-  AlignedVector<double> root(n_lanes);
-  for (std::size_t i = 0; i < own.size(); ++i)
-  {
-    const std::size_t first = bonds.begin(i), n = bonds.n_bonds(i);
-    const Vec Xi = X[i];
-    const Mat M = functions.moment_inverse[i]; // symmetric
-    if (n >= root.size())
-      root.resize((n + n_lanes) / n_lanes * n_lanes, 0.);
-    Vec sum = {};
-    for (std::size_t b = 0; b < n; ++b)
-    {
-      const Vec g =
-          stored ? functions.shape_gradient[first + b]
-                 : multiply_columns(M, bonds.weight[first + b] *
-                                           (X[bonds.neighbor[first + b]] - Xi));
-      sum += g;
-      root[b] = norm_square(g);
-    }
-    root[n] = norm_square(sum); // the gradients of all add up to nothing
-    for (std::size_t b = 0; b <= n; b += n_lanes)
-      store_pack(&root[b], pack_sqrt(load_pack(&root[b])));
-    double total = 0.;
-    for (std::size_t b = 0; b < n; ++b)
-      total += of_bond[first + b] = root[b];
-    own[i] = root[n];
-    sums[i] = total + root[n];
-  }
-  bonds.update_ghosts(of_bond.data());
-}
-
-/** Sums over J of V_J sum |g_J| |g_JI|: rows of K over rho c^2 [1/m]. */
-std::vector<double> gradient_row_sums(const SpgParts &body)
-{
-  const std::size_t n = body.nodes.n_owned;
-  const BondList &bonds = body.bonds;
-  std::vector<double> of_bond, own(n), share(body.nodes.size());
-  find_gradient_norms(body, of_bond, own, share);
-  for (std::size_t i = 0; i < n; ++i)
-    share[i] *= body.fields.kernel_reference_volume[i];
-  body.exchange.update(share.data());
-  std::vector<double> rows(n);
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    double row = 0.;
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      row += share[bonds.neighbor[b]] * of_bond[bonds.reverse[b]];
-    rows[i] = row + share[i] * own[i];
-  }
-  return rows;
-}
 } // namespace
 
 void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form)
 {
   const NodalState &nodes = body.nodes;
   const Material &law = body.points.law();
-  const double c = law.sound_speed(), modulus = law.density() * c * c;
-  const std::vector<double> rows = gradient_row_sums(body);
+  const double c = law.sound_speed();
+  const std::vector<double> rows = elastic_row_bounds(body);
   const std::vector<double> mass = moving_masses(nodes);
   std::vector<double> springs(nodes.n_owned, 0.);
   form.add_row_sums(body, springs);
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
-    const double omega_square = (modulus * rows[i] + springs[i]) / mass[i];
+    const double omega_square = (rows[i] + springs[i]) / mass[i];
     step[i] = (!body.failure.has_cracks(i) ? factor : 1.) *
               (omega_square > 0. ? 2. / std::sqrt(omega_square)
                                  : 2. * body.kernel.local_spacing(i) / c);

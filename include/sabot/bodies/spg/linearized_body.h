@@ -8,6 +8,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/spg_parts.h"
+#include "sabot/bodies/spg/stiffness_bound.h"
 
 namespace sabot
 {
@@ -77,8 +78,9 @@ void apply_linearized_moments(const SpgParts &body, Form &form,
       }
     }
     const Mat L = by_weight * inverse_moment[i];
-    const double k = form.linear_stiffness(i);
-    Mat moment = body.fields.kernel_reference_volume[i] * stress(L);
+    const double share = stiffness_share(body, i),
+                 k = share * form.linear_stiffness(i);
+    Mat moment = share * body.fields.kernel_reference_volume[i] * stress(L);
     if constexpr (Form::has_bond_forces)
       moment = moment - k * (by_scaled - L * second);
     particle[i] = {transpose(moment * inverse_moment[i]), k * transpose(L)};
@@ -127,7 +129,8 @@ void apply_linearized_moments(const SpgParts &body, Form &form,
  * K is symmetric and positive semidefinite, so that Lanczos on M^-1 K finds the
  * largest frequency of the body (largest_frequency()). Stress, damage and
  * plastic flow of now are not in it: the step has to bear the elastic body,
- * which is the stiffest. [N] for a motion in m, [N/s] for one in m/s.
+ * which is the stiffest; only failed metal that gapes has next to none of it
+ * (stiffness_share()). [N] for a motion in m, [N/s] for one in m/s.
  *
  * Ghosts: the motion's must be up to date; moments, slopes and stiffnesses of
  * this rank's particles are exchanged once in between. Failed bonds are not in
@@ -166,8 +169,9 @@ void apply_linearized_body(const SpgParts &body, Form &form,
       const Vec relative = motion[j] - motion[i];
       add_outer(L, relative, g[b]);
     }
-    Mat moment = volume[i] * stress(L);
-    const double stiffness = form.linear_stiffness(i);
+    const double share = stiffness_share(body, i);
+    Mat moment = share * volume[i] * stress(L);
+    const double stiffness = share * form.linear_stiffness(i);
     if constexpr (Form::has_bond_forces)
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       {

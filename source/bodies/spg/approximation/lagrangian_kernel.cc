@@ -102,6 +102,12 @@ bool LagrangianKernel::has_changed(const double change) const
   return std::sqrt(change) > largest_stretch;
 }
 
+double LagrangianKernel::largest_compression() const
+{
+  // |F^-1|^2 = c^2 + 2, whose determinant is largest for equal stretches.
+  return std::pow((largest_stretch * largest_stretch + 2.) / 3., 1.5);
+}
+
 void LagrangianKernel::follow(ParticleFields &fields) const
 {
   const Vec axes = normalized_support * vec(spacing[0], spacing[1], spacing[2]);

@@ -48,6 +48,7 @@ public:
   }
   bool joins_crumbled() const override { return true; }
   bool has_friction() const override { return true; }
+  bool bears_no_tension() const override { return true; }
   void update(const Material &law, const MaterialBatch &points,
               const FailedPoints &failed) override;
   void release(double stress[n_symmetric]) const override;

@@ -5,6 +5,7 @@
 #include "sabot/bodies/spg/linearized_body.h"
 #include "sabot/bodies/spg/spg_step.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
+#include "sabot/bodies/spg/stiffness_bound.h"
 
 namespace sabot
 {
@@ -312,8 +313,9 @@ void BondResidual::add_row_sums(const SpgParts &body,
 {
   // Of the springs, as if F did not follow the particles.
   const BondList &bonds = body.bonds;
-  std::vector<double> k(stiffness);
-  k.resize(body.nodes.size());
+  std::vector<double> k(body.nodes.size());
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    k[i] = stiffness[i] * stiffness_share(body, i);
   body.exchange.update(k.data());
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {

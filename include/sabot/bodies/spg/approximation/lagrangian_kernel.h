@@ -57,6 +57,10 @@ public:
       update cannot wait. @p change: largest of |F|^2 - 2 and |F^-1|^2 - 2.
       sqrt(change) against the entry "Kernel update change"; on this rank. */
   bool has_changed(const double change) const;
+  /** The largest ratio of volumes, that of the last update over now, which is
+      no reason for has_changed(): ((c^2 + 2)/3)^(3/2), c "Kernel update
+      change". */
+  double largest_compression() const;
   /** Let kernels, volumes and F of the owned particles follow what happened
       since the last update, which starts anew. Wu & Wu 2018, Eq. 16: H :=
       F_inc H, V_ref := J_inc V_ref, F_ref := F_inc F_ref, F_inc := 1.

@@ -62,6 +62,9 @@ public:
       that have crumbled are not removed but found anew as pieces slide, since
       the rule leaves their stress no cohesion. */
   virtual bool joins_crumbled() const { return false; }
+  /** Whether metal without any stress that is stretched further stays so: the
+      rule leaves neither tension nor what needs pressure. */
+  virtual bool bears_no_tension() const { return false; }
   /** Whether it turns work into heat of friction (FailedPoints). */
   virtual bool has_friction() const { return false; }
 

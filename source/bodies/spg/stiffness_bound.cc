@@ -1,0 +1,214 @@
+// Bounds of the elastic stiffness that a particle's motion meets, for the
+// stable step.
+#include "sabot/bodies/spg/stiffness_bound.h"
+
+#include "sabot/base/ghost_exchange.h"
+#include "sabot/base/nodal_state.h"
+#include "sabot/bodies/material_points.h"
+#include "sabot/bodies/spg/approximation/approximation.h"
+#include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
+#include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/failure/residual_strength.h"
+#include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/spg_options.h"
+#include "sabot/bodies/spg/spg_parts.h"
+#include "sabot/kernels/bond_pack.h"
+#include "sabot/kernels/symmetric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+double stiffness_share(const SpgParts &body, const std::size_t i)
+{
+  // Of what a step may take from a volume beyond the largest compression.
+  constexpr double margin = 1.13, closing_speed = 0.1; // over the wave speed
+  if (!body.failure.is_failed[i] || !body.residual_strength.bears_no_tension())
+    return 1.;
+  const double V = body.fields.kernel_reference_volume[i],
+               V_0 = body.fields.reference_volume[i];
+  if (!(V > margin * body.kernel.largest_compression() * V_0))
+    return 1.;
+  const Mat stress = body.points.total_stress(i, 0.);
+  for (const Vec row : stress.row)
+    if (row[0] != 0. || row[1] != 0. || row[2] != 0.)
+      return 1.;
+  return std::min(1.,
+                  4. *
+                      (body.options.bulk_viscosity_linear +
+                       closing_speed * body.options.bulk_viscosity_quadratic) *
+                      V_0 / V);
+}
+
+namespace
+{
+/** Sums over the bonds of a particle of g (x) g/|g| (xx, yy, zz, xy, yz, xz),
+    |g| and g, one bond in each lane. */
+struct GradientSums
+{
+  Pack outer[6] = {}, length = {}, vector[3] = {};
+
+  /** @p factor, @p share: of the two first. */
+  void add(const Pack g[3], const Pack factor, const Pack share)
+  {
+    const Pack least = in_all(1e-200),
+               square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2],
+               norm = pack_sqrt(square), part = factor / pack_max(norm, least);
+    constexpr int column[6] = {0, 1, 2, 1, 2, 2}, row[6] = {0, 1, 2, 0, 1, 0};
+    Pack scaled[3];
+    for (int d = 0; d < 3; ++d)
+    {
+      scaled[d] = part * g[d];
+      vector[d] += g[d];
+    }
+    for (int c = 0; c < 6; ++c)
+      outer[c] += scaled[row[c]] * g[column[c]];
+    length += share * norm;
+  }
+  /** The first sum, and of its diagonal @p more. */
+  Symmetric matrix() const
+  {
+    const Pack zero = {},
+               diagonal = sum_lanes(outer[0], outer[1], outer[2], zero),
+               mixed = sum_lanes(outer[3], outer[4], outer[5], zero);
+    return {diagonal[0], diagonal[1], diagonal[2],
+            mixed[0],    mixed[1],    mixed[2]};
+  }
+};
+
+/** What each particle's stiffness has to do with its neighbors. */
+struct Elements
+{
+  AlignedVector<Mat> inverse_moment; // with ghosts; least squares only
+  std::vector<double> bulk, shear;   // V lambda s, 2 V mu l, with ghosts
+  AlignedVector<Vec> own;            // g of the particle itself, owned
+};
+
+/** Gradients of the functions of four bonds, seen from particle @p i. */
+void gradients_here(const SpgParts &body, const std::size_t i,
+                    const std::uint32_t b, Pack g[3])
+{
+  const ParticleApproximation &functions = body.approximation;
+  if (functions.stores_gradients())
+  {
+    const std::uint32_t here[n_lanes] = {b, b + 1, b + 2, b + 3};
+    return gather(functions.shape_gradient.data(), here, g);
+  }
+  const Vec *const X = body.fields.kernel_reference_position.data();
+  const Pack w = load_floats(&body.bonds.weight[b]);
+  const Mat &M = functions.moment_inverse[i]; // symmetric
+  Pack dX[3];
+  gather(X, &body.bonds.neighbor[b], dX);
+  for (int d = 0; d < 3; ++d)
+    dX[d] = w * (dX[d] - X[i][d]);
+  for (int d = 0; d < 3; ++d)
+    g[d] = M(d, 0) * dX[0] + M(d, 1) * dX[1] + M(d, 2) * dX[2];
+}
+
+/** The same of the functions of particle @p i, seen from its neighbors. */
+void gradients_there(const SpgParts &body, const Elements &elements,
+                     const std::size_t i, const std::uint32_t b, Pack g[3])
+{
+  const ParticleApproximation &functions = body.approximation;
+  if (functions.stores_gradients())
+    return gather(functions.shape_gradient.data(), &body.bonds.reverse[b], g);
+  const Vec *const X = body.fields.kernel_reference_position.data();
+  const Vec *const rows = elements.inverse_moment[0].row;
+  const std::uint32_t *const j = &body.bonds.neighbor[b];
+  const Pack w = load_floats(&body.bonds.weight[b]);
+  Pack dX[3], M[3];
+  gather(X, j, dX);
+  for (int d = 0; d < 3; ++d)
+    dX[d] = w * (X[i][d] - dX[d]);
+  for (std::uint32_t d = 0; d < 3; ++d)
+  {
+    const std::uint32_t row[n_lanes] = {3 * j[0] + d, 3 * j[1] + d,
+                                        3 * j[2] + d, 3 * j[3] + d};
+    gather(rows, row, M);
+    g[d] = M[0] * dX[0] + M[1] * dX[1] + M[2] * dX[2];
+  }
+}
+
+/** The first half: s and l of every particle. Collective. */
+Elements find_elements(const SpgParts &body)
+{
+  const std::size_t n = body.nodes.n_owned;
+  const BondList &bonds = body.bonds;
+  const Material &law = body.points.law();
+  const double mu = law.shear_modulus(),
+               lambda = std::max(0., law.bulk_modulus() - 2. / 3. * mu);
+  Elements elements;
+  elements.own.resize(n);
+  elements.bulk.resize(body.nodes.size());
+  elements.shear.resize(body.nodes.size());
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    GradientSums sums;
+    for (std::uint32_t b = bonds.begin(i); b < bonds.packed_end(i);
+         b += n_lanes)
+    {
+      Pack g[3];
+      gradients_here(body, i, b, g);
+      sums.add(g, in_all(1.), in_all(1.));
+    }
+    const Pack *const v = sums.vector;
+    const Pack last = sum_lanes(v[0], v[1], v[2], sums.length);
+    // The gradients of all add up to nothing.
+    const Vec own = vec(-last[0], -last[1], -last[2]);
+    const double of_own = norm(own), s = last[3] + of_own;
+    Symmetric G = sums.matrix();
+    if (of_own > 0.)
+      G.add_outer(1. / of_own, own);
+    const double V =
+        body.fields.kernel_reference_volume[i] * stiffness_share(body, i);
+    elements.own[i] = own;
+    elements.bulk[i] = V * lambda * s;
+    elements.shear[i] = 2. * V * mu * G.largest_eigenvalue_bound();
+  }
+  body.exchange.update(elements.bulk.data());
+  body.exchange.update(elements.shear.data());
+  if (!body.approximation.stores_gradients())
+  {
+    elements.inverse_moment = body.approximation.moment_inverse;
+    elements.inverse_moment.resize(body.nodes.size());
+    body.exchange.update(elements.inverse_moment.data());
+  }
+  return elements;
+}
+} // namespace
+
+std::vector<double> elastic_row_bounds(const SpgParts &body)
+{
+  const std::size_t n = body.nodes.n_owned;
+  const BondList &bonds = body.bonds;
+  const Elements elements = find_elements(body);
+  std::vector<double> rows(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    GradientSums sums;
+    for (std::uint32_t b = bonds.begin(i); b < bonds.packed_end(i);
+         b += n_lanes)
+    {
+      const std::uint32_t *const j = &bonds.neighbor[b];
+      Pack g[3];
+      gradients_there(body, elements, i, b, g);
+      sums.add(g,
+               Pack{elements.bulk[j[0]], elements.bulk[j[1]],
+                    elements.bulk[j[2]], elements.bulk[j[3]]},
+               Pack{elements.shear[j[0]], elements.shear[j[1]],
+                    elements.shear[j[2]], elements.shear[j[3]]});
+    }
+    Symmetric R = sums.matrix();
+    const Vec own = elements.own[i];
+    const double of_own = norm(own);
+    if (of_own > 0.)
+      R.add_outer(elements.bulk[i] / of_own, own);
+    const Pack zero = {}, all = sum_lanes(sums.length, zero, zero, zero);
+    rows[i] =
+        R.largest_eigenvalue_bound() + all[0] + elements.shear[i] * of_own;
+  }
+  return rows;
+}
+} // namespace sabot
