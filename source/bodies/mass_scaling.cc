@@ -137,12 +137,12 @@ void MassScaling::add_measures(BodyMeasures &measures) const
   measures.own.push_back({"added mass share", "1", share()});
 }
 
-void MassScaling::visit_state(StateVisitor &visitor)
+void MassScaling::visit_state(StateVisitor &visitor, const StateItems &items)
 {
-  visitor.visit_array("added mass", nodes.added_mass);
+  visitor.visit_items("added mass", nodes.added_mass, items);
   visitor.visit_value("added mass of all", total);
-  visitor.visit_value("mass added here", mass);
-  visitor.visit_value("energy of added mass", energy);
-  visitor.visit_value("momentum of added mass", momentum);
+  visitor.visit_sum("mass added here", mass);
+  visitor.visit_sum("energy of added mass", energy);
+  visitor.visit_sum("momentum of added mass", momentum);
 }
 } // namespace sabot

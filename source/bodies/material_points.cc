@@ -179,12 +179,23 @@ void MaterialPoints::add_fields(FieldList &fields,
                       state_data.data(), state_variables);
 }
 
-void MaterialPoints::visit_state(StateVisitor &visitor)
+void MaterialPoints::visit_state(StateVisitor &visitor, const StateItems &items,
+                                 const std::size_t per_item)
 {
-  visitor.visit_array("stress", stress);
-  visitor.visit_array("state", state_data);
-  visitor.visit_array("viscous pressure", viscous_pressure);
-  visitor.visit_array("internal energy", internal_energy);
-  visitor.visit_array("plastic work", plastic_work);
+  const auto row = [&](const std::string &name, double *const data)
+  {
+    visitor.visit_items(name, data, n_points / per_item, sizeof(double), items,
+                        per_item, 1);
+    // What pads it must be in a state that the law can update.
+    if (visitor.is_restoring() && n_points > 0)
+      std::fill(data + n_points, data + row_length, data[n_points - 1]);
+  };
+  for (int c = 0; c < n_symmetric; ++c)
+    row("stress " + std::to_string(c), stress.data() + c * row_length);
+  for (std::size_t r = 0; r < n_state_rows; ++r)
+    row("state " + std::to_string(r), state_data.data() + r * row_length);
+  row("viscous pressure", viscous_pressure.data());
+  row("internal energy", internal_energy.data());
+  row("plastic work", plastic_work.data());
 }
 } // namespace sabot

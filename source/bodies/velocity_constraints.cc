@@ -105,9 +105,17 @@ VelocityConstraints::reactions(const NodalState &nodes, const int body,
   return reactions(nodes, body, kinds, communicator);
 }
 
-void VelocityConstraints::visit_state(StateVisitor &visitor)
+void VelocityConstraints::visit_state(StateVisitor &visitor,
+                                      const std::string &body,
+                                      const NodalState &nodes)
 {
-  visitor.visit_array("reaction impulse", impulse);
+  std::vector<GlobalIndex> keys;
+  for (const Held &h : held)
+    keys.push_back(nodes.global_id[h.node]);
+  const StateItems items = {visitor.section + "/held nodes of " + body,
+                            keys.data(), keys.size(), keys.size()};
+  visitor.visit_keys(items);
+  visitor.visit_items("reaction impulse", impulse, items);
 }
 
 void VelocityConstraints::accumulate_work(const NodalState &nodes,

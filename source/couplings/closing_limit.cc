@@ -224,7 +224,12 @@ Measures ClosingLimit::measure() const
 void ClosingLimit::visit_state(StateVisitor &visitor)
 {
   visitor.visit_array("motions", motions);
-  visitor.visit_array("pairs", pairs);
+  std::vector<double> references;
+  for (const Pair &pair : pairs)
+    references.push_back(pair.reference);
+  visitor.visit_array("speeds of pairs", references);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    pairs[p].reference = references[p];
   visitor.visit_value("looks", n_looks);
   visitor.visit_value("limit", limit);
   visitor.visit_value("largest closing", largest);

@@ -107,6 +107,7 @@ Contact::keep_relevant(const SearchResult &found,
   add_neighbors(found, needed, is_needed);
   halo.build(bodies, needed, communicator);
   faces.clear();
+  face_ids.clear();
   number_of_face.assign(found.faces.size(), 0);
   for (std::size_t f = 0; f < found.faces.size(); ++f)
     if (is_needed[f])
@@ -116,6 +117,7 @@ Contact::keep_relevant(const SearchResult &found,
       for (int a = 0; a < 4; ++a)
         slots[a] = halo.slot({found.faces[f].body, 0, found.faces[f].node[a]});
       faces.corners.push_back(slots);
+      face_ids.push_back(found.faces[f].id);
     }
   return kept;
 }
@@ -202,71 +204,129 @@ void Contact::visit_state(StateVisitor &visitor)
   visitor.visit_value("traveled", traveled);
   closing_speed.visit_state(visitor);
   visitor.visit_value("surface version", surface_version);
-  visitor.visit_value("penetration", penetration_over_spacing);
+  visitor.visit_largest("penetration", penetration_over_spacing);
   visitor.visit_value("steady step", points.steady_step.value);
   shared_work.visit_state(visitor);
+  SavedGroups saved = save_groups();
+  visitor.visit_all("groups", saved.groups);
+  visitor.visit_all("faces of nodes", saved.faces_of_nodes);
+  visitor.visit_all("faces", saved.faces);
+  if (visitor.is_restoring())
+  {
+    update_surfaces(); // as the restored bodies have them
+    restore_groups(saved);
+    if (options.shear_strength.needs_flow_stress())
+      flow_stress.resize(halo.size());
+  }
+  const std::vector<GlobalIndex> keys = halo.numbers();
+  const StateItems slots = {visitor.section + "/slots", keys.data(),
+                            halo.n_owned(), halo.size()};
+  visitor.visit_keys(slots);
+  visitor.visit_items("flow stress", flow_stress, slots);
+  forces.visit_state(visitor, halo, slots);
+}
+
+Contact::SavedGroups Contact::save_groups() const
+{
   // Candidates were found where the bodies were at the last search, so they
   // cannot be found anew. Slots depend on nothing but the nodes.
   SavedGroups saved;
   for (const Group &group : groups)
+  {
+    if (group.slot >= halo.n_owned())
+      continue; // its owner has it
     saved.groups.push_back(
         {halo.key(group.slot), std::int64_t(group.last_face - group.first_face),
          group.stiffness, group.spacing, group.area, group.area_vector,
          group.own, group.memory, group.wake, group.patch_radius, group.share,
          group.cut});
-  for (const std::size_t face : faces.face_of_node)
-    saved.face_of_node.push_back(face);
-  for (const auto &face : faces.corners)
-    for (const std::size_t slot : face)
-      saved.face_nodes.push_back(halo.key(slot));
-  visitor.visit_resized("groups", saved.groups);
-  visitor.visit_resized("faces of nodes", saved.face_of_node);
-  visitor.visit_resized("face nodes", saved.face_nodes);
-  if (visitor.is_restoring())
-  {
-    update_surfaces(); // as the restored bodies have them
-    restore_groups(saved);
+    for (std::size_t f = group.first_face; f < group.last_face; ++f)
+      saved.faces_of_nodes.push_back(key_of_face(faces.face_of_node[f]));
   }
-  visitor.visit_resized("flow stress", flow_stress);
-  forces.visit_state(visitor);
+  for (std::size_t f = 0; f < faces.corners.size(); ++f)
+  {
+    saved.faces.push_back({key_of_face(f), {}});
+    for (int a = 0; a < 4; ++a)
+      saved.faces.back().node[a] = halo.key(faces.corners[f][a]).node;
+  }
+  return saved;
 }
 
-void Contact::restore_groups(const SavedGroups &saved)
+void Contact::restore_groups(SavedGroups &saved)
 {
-  std::vector<NodeKey> needed = saved.face_nodes;
+  // As if they had just been found, by all ranks.
+  SearchResult found;
+  std::sort(saved.faces.begin(), saved.faces.end(),
+            [](const SavedFace &a, const SavedFace &b)
+            { return a.key < b.key; });
+  for (const SavedFace &face : saved.faces)
+    if (found.faces.empty() || !(face.key == NodeKey{found.faces.back().body, 0,
+                                                     found.faces.back().id}))
+    {
+      found.faces.emplace_back();
+      found.faces.back().body = face.key.body;
+      found.faces.back().id = face.key.node;
+      found.faces.back().node = face.node;
+    }
+  const auto number_of = [&](const NodeKey &key)
+  {
+    return std::lower_bound(found.faces.begin(), found.faces.end(), key,
+                            [](const FaceNodes &face, const NodeKey &k) {
+                              return NodeKey{face.body, 0, face.id} < k;
+                            }) -
+           found.faces.begin();
+  };
+  for (const NodeKey &face : saved.faces_of_nodes)
+    found.face_of_candidate.push_back(number_of(face));
+  std::vector<std::size_t> first = {0}, order;
   for (const SavedGroup &group : saved.groups)
-    needed.push_back(group.node);
-  halo.build(bodies, needed, communicator);
+  {
+    order.push_back(order.size());
+    first.push_back(first.back() + group.n_faces);
+  }
+  std::sort(order.begin(), order.end(),
+            [&](const std::size_t a, const std::size_t b)
+            { return saved.groups[a].node < saved.groups[b].node; });
+  for (const std::size_t g : order)
+  {
+    ContactCandidate candidate{};
+    candidate.node = saved.groups[g].node;
+    candidate.first_face = first[g];
+    candidate.last_face = first[g + 1];
+    found.candidates.push_back(candidate);
+  }
+  std::vector<std::size_t> number_of_face;
+  const std::vector<KeptNode> kept = keep_relevant(found, number_of_face);
   groups.clear();
-  faces.clear();
-  for (std::size_t f = 0; f < saved.face_nodes.size(); f += 4)
-  {
-    std::array<std::size_t, 4> slots;
-    for (int a = 0; a < 4; ++a)
-      slots[a] = halo.slot(saved.face_nodes[f + a]);
-    faces.corners.push_back(slots);
-  }
-  faces.face_of_node.assign(saved.face_of_node.begin(),
-                            saved.face_of_node.end());
-  std::size_t first_face = 0;
-  for (const SavedGroup &from : saved.groups)
-  {
-    Group group;
-    group.slot = halo.slot(from.node);
-    group.first_face = first_face;
-    group.last_face = first_face += from.n_faces;
-    group.stiffness = from.stiffness;
-    group.spacing = from.spacing;
-    group.area = from.area;
-    group.area_vector = from.area_vector;
-    group.own = from.own;
-    group.memory = from.memory;
-    group.wake = from.wake;
-    group.patch_radius = from.patch_radius;
-    group.share = from.share;
-    group.cut = from.cut;
-    groups.push_back(group);
-  }
+  for (const KeptNode &node : kept)
+    groups.push_back(
+        restored_group(saved.groups[order[node.first]], found, number_of_face));
   reset_slots();
+}
+
+Contact::Group
+Contact::restored_group(const SavedGroup &from, const SearchResult &found,
+                        const std::vector<std::size_t> &number_of_face)
+{
+  const auto candidate = std::lower_bound(
+      found.candidates.begin(), found.candidates.end(), from.node,
+      [](const ContactCandidate &c, const NodeKey &k) { return c.node < k; });
+  Group group;
+  group.slot = halo.slot(from.node);
+  group.first_face = faces.face_of_node.size();
+  for (auto k = candidate->first_face; k < candidate->last_face; ++k)
+    faces.face_of_node.push_back(number_of_face[found.face_of_candidate[k]]);
+  group.last_face = faces.face_of_node.size();
+  group.stiffness = from.stiffness;
+  group.spacing = from.spacing;
+  group.area = from.area;
+  group.area_vector = from.area_vector;
+  group.own = from.own;
+  group.memory = from.memory;
+  group.wake = from.wake;
+  group.patch_radius = from.patch_radius;
+  group.share = from.share;
+  group.cut = from.cut;
+  return group;
 }
 } // namespace sabot

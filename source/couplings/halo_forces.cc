@@ -41,14 +41,18 @@ void HaloForces::settle_impulses()
   body_of.clear();
 }
 
+void HaloForces::start_impulses(const NodeHalo &halo)
+{
+  impulse.assign(halo.n_owned(), Vec{});
+  body_of.clear();
+  for (std::size_t s = 0; s < halo.n_owned(); ++s)
+    body_of.push_back(halo.key(s).body);
+}
+
 void HaloForces::accumulate_work(const NodeHalo &halo, const double half_dt)
 {
   if (impulse.size() != halo.n_owned())
-  {
-    impulse.assign(halo.n_owned(), Vec{});
-    for (std::size_t s = 0; s < halo.n_owned(); ++s)
-      body_of.push_back(halo.key(s).body);
-  }
+    start_impulses(halo);
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
     if (norm_square(normal[s]) + norm_square(friction[s]) > 0.)
     {
@@ -113,16 +117,19 @@ void HaloForces::add_measures(Measures &measures, MPI_Comm communicator) const
   measures.push_back({"friction energy", "J", -work[1].value()});
 }
 
-void HaloForces::visit_state(StateVisitor &visitor)
+void HaloForces::visit_state(StateVisitor &visitor, const NodeHalo &halo,
+                             const StateItems &slots)
 {
-  visitor.visit_value("contact work", contact_work);
-  visitor.visit_value("friction work", friction_work);
+  visitor.visit_sum("contact work", contact_work);
+  visitor.visit_sum("friction work", friction_work);
   // Half of their work along the next step is still to be counted.
-  visitor.visit_array("normal force", normal);
-  visitor.visit_array("friction force", friction);
-  visitor.visit_resized("impulse", impulse);
-  visitor.visit_resized("body of impulse", body_of);
-  visitor.visit_resized("settled impulse", settled);
+  visitor.visit_items("normal force", normal, slots);
+  visitor.visit_items("friction force", friction, slots);
+  if (impulse.size() != halo.n_owned())
+    start_impulses(halo);
+  visitor.visit_items("impulse", impulse, slots);
+  settled.resize(halo.n_bodies());
+  visitor.visit_sums("settled impulse", settled);
   pairs.visit_state(visitor);
 }
 } // namespace sabot

@@ -142,6 +142,14 @@ void NodeHalo::find_flow_stress(std::vector<double> &of_slots) const
   exchange.update(of_slots.data());
 }
 
+std::vector<GlobalIndex> NodeHalo::numbers() const
+{
+  std::vector<GlobalIndex> found;
+  for (const NodeKey &k : key_of_slot)
+    found.push_back(k.node * GlobalIndex(all_bodies.size()) + k.body);
+  return found;
+}
+
 std::size_t NodeHalo::slot(const NodeKey &key) const
 {
   const auto middle = key_of_slot.begin() + n_owned();

@@ -65,7 +65,7 @@ void PairForces::visit_state(StateVisitor &visitor)
   if (!any())
     return;
   // Half of their impulse is still to come.
-  visitor.visit_resized("forces of pairs", pushes);
-  visitor.visit_array("impulses of pairs", impulses);
+  visitor.visit_anywhere("forces of pairs", pushes);
+  visitor.visit_sums("impulses of pairs", impulses);
 }
 } // namespace sabot

@@ -342,15 +342,33 @@ void ParticleContact::visit_state(StateVisitor &visitor)
 {
   age.visit_state(visitor);
   visitor.visit_value("allowance", allowance);
-  visitor.visit_value("penetration", over_spacing.largest);
+  visitor.visit_largest("penetration", over_spacing.largest);
   visitor.visit_value("steady step", points.steady_step.value);
   shared_work.visit_state(visitor);
   // Candidates were found where the bodies were at the last search.
-  visitor.visit_resized("groups", groups);
-  visitor.visit_resized("members", members);
+  std::vector<Group> saved;
+  std::vector<Member> its;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (slots[g].node < halo.n_owned())
+    {
+      saved.push_back(groups[g]);
+      its.insert(its.end(), members.begin() + slots[g].first_member,
+                 members.begin() + slots[g].last_member);
+    }
+  visitor.visit_all("groups", saved);
+  visitor.visit_all("members", its);
   if (visitor.is_restoring())
+  {
+    keep_relevant(saved, its);
     build_halo();
-  visitor.visit_resized("flow stress", flow_stress);
-  forces.visit_state(visitor);
+    if (options.shear_strength.needs_flow_stress())
+      flow_stress.resize(halo.size());
+  }
+  const std::vector<GlobalIndex> keys = halo.numbers();
+  const StateItems of_slots = {visitor.section + "/slots", keys.data(),
+                               halo.n_owned(), halo.size()};
+  visitor.visit_keys(of_slots);
+  visitor.visit_items("flow stress", flow_stress, of_slots);
+  forces.visit_state(visitor, halo, of_slots);
 }
 } // namespace sabot

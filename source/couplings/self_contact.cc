@@ -94,6 +94,13 @@ SelfContact::Pair SelfContact::make_pair(const NodeKey &a, const NodeKey &b,
   return pair;
 }
 
+bool SelfContact::comes_before(const Pair &p, const Pair &q)
+{
+  return !(p.first == q.first)     ? p.first < q.first
+         : !(p.second == q.second) ? p.second < q.second
+                                   : p.image < q.image;
+}
+
 void SelfContact::find_pairs()
 {
   int rank;
@@ -143,17 +150,12 @@ void SelfContact::find_pairs()
           found.back().largest_friction *= share;
         });
   }
-  const auto before = [](const Pair &p, const Pair &q)
-  {
-    return !(p.first == q.first)     ? p.first < q.first
-           : !(p.second == q.second) ? p.second < q.second
-                                     : p.image < q.image;
-  };
-  std::sort(found.begin(), found.end(), before);
+  std::sort(found.begin(), found.end(), comes_before);
   for (Pair &pair : found)
   {
-    const auto old = std::lower_bound(pairs.begin(), pairs.end(), pair, before);
-    if (old != pairs.end() && !before(pair, *old))
+    const auto old =
+        std::lower_bound(pairs.begin(), pairs.end(), pair, comes_before);
+    if (old != pairs.end() && !comes_before(pair, *old))
       pair.distance = std::min(old->distance, pair.largest_distance);
   }
   pairs = std::move(found);
@@ -288,12 +290,31 @@ Measures SelfContact::measure() const
 
 void SelfContact::visit_state(StateVisitor &visitor)
 {
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
   age.visit_state(visitor);
   visitor.visit_value("loose particles", n_loose);
   // A pair knows at which distance it was first met.
-  visitor.visit_resized("pairs", pairs);
+  const auto is_mine = [&](const NodeKey &key)
+  { return bodies[key.body]->node_owner[key.node] == rank; };
+  std::vector<Pair> saved;
+  for (const Pair &pair : pairs)
+    if (is_mine(pair.first))
+      saved.push_back(pair);
+  visitor.visit_all("pairs", saved);
   if (visitor.is_restoring())
+  {
+    pairs.clear();
+    for (const Pair &pair : saved)
+      if (is_mine(pair.first) || is_mine(pair.second))
+        pairs.push_back(pair);
+    std::sort(pairs.begin(), pairs.end(), comes_before);
     build_halo();
-  forces.visit_state(visitor);
+  }
+  const std::vector<GlobalIndex> keys = halo.numbers();
+  const StateItems slots = {visitor.section + "/slots", keys.data(),
+                            halo.n_owned(), halo.size()};
+  visitor.visit_keys(slots);
+  forces.visit_state(visitor, halo, slots);
 }
 } // namespace sabot

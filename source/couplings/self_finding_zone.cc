@@ -23,6 +23,7 @@ SelfFindingZone::SelfFindingZone(const std::string &name,
 
 void SelfFindingZone::initialize()
 {
+  sink.live_with(host.node_owner);
   std::vector<GlobalIndex> kept;
   if (others)
     for (const auto *const nodes : {&others->followers, &others->leaders})
@@ -78,23 +79,26 @@ bool SelfFindingZone::convert(const std::vector<std::size_t> &cells,
     converted_energy.add(entry.internal_energy);
   }
   const std::size_t before = particles.n_owned;
-  sink.take(matter, nodes, host.node_owner, step, lost);
+  sink.take(matter, nodes, step, lost);
   pair_new(before);
   settle_pairs(matter);
   hand_on();
   return true;
 }
 
-void SelfFindingZone::pair_new(const std::size_t first)
+SelfFindingZone::Shared SelfFindingZone::pair_of(const std::size_t i) const
 {
   const NodalState &nodes = host.nodes(), &particles = zone.nodes();
-  for (std::size_t i = first; i < particles.n_owned; ++i)
-  {
-    const GlobalIndex id = sink.host_nodes()[particles.global_id[i]];
-    const auto node = std::lower_bound(
-        nodes.global_id.begin(), nodes.global_id.begin() + nodes.n_owned, id);
-    shared.push_back({i, std::size_t(node - nodes.global_id.begin())});
-  }
+  const GlobalIndex id = sink.host_nodes()[particles.global_id[i]];
+  const auto node = std::lower_bound(
+      nodes.global_id.begin(), nodes.global_id.begin() + nodes.n_owned, id);
+  return {i, std::size_t(node - nodes.global_id.begin())};
+}
+
+void SelfFindingZone::pair_new(const std::size_t first)
+{
+  for (std::size_t i = first; i < zone.nodes().n_owned; ++i)
+    shared.push_back(pair_of(i));
 }
 
 void SelfFindingZone::settle_pairs(const NodalMatter &matter)
@@ -182,12 +186,32 @@ Measures SelfFindingZone::measure() const
 
 void SelfFindingZone::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("energy lost", lost);
-  visitor.visit_value("hourglass energy lost", hourglass);
-  visitor.visit_value("converted mass", converted_mass);
-  visitor.visit_value("converted energy", converted_energy);
-  visitor.visit_resized("shared nodes", shared);
-  visitor.visit_resized("nodes of particles alone", alone);
-  visitor.visit_resized("forces handed on", handed);
+  visitor.visit_sum("energy lost", lost);
+  visitor.visit_sum("hourglass energy lost", hourglass);
+  visitor.visit_sum("converted mass", converted_mass);
+  visitor.visit_sum("converted energy", converted_energy);
+  const StateItems particles = nodes_of_state(zone);
+  const std::size_t n = particles.n_saved;
+  std::vector<char> is_alone(n, 0);
+  AlignedVector<Vec> forces(n, Vec{});
+  for (const Shared &pair : alone)
+    is_alone[pair.particle] = 1;
+  for (std::size_t k = 0; k < handed.size(); ++k)
+    forces[shared[k].particle] = handed[k];
+  visitor.visit_items("particles alone", is_alone, particles);
+  visitor.visit_items("forces handed on", forces, particles);
+  if (!visitor.is_restoring())
+    return;
+  shared.clear();
+  alone.clear();
+  handed.clear();
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_alone[i])
+      alone.push_back(pair_of(i));
+    else
+    {
+      shared.push_back(pair_of(i));
+      handed.push_back(forces[i]);
+    }
 }
 } // namespace sabot

@@ -180,9 +180,36 @@ std::vector<Resultant> SymmetryWalls::resultants() const
 void SymmetryWalls::visit_state(StateVisitor &visitor)
 {
   // Half of the work of these forces is still to be counted.
-  visitor.visit_resized("held nodes", held);
-  visitor.visit_value("work at planes", work);
-  visitor.visit_array("impulses at planes", impulse);
-  visitor.visit_value("farthest beyond planes", farthest);
+  std::vector<SavedHeld> saved;
+  for (const Held &h : held)
+    saved.push_back({h.body, h.axis, bodies[h.body]->nodes().global_id[h.node],
+                     h.step, h.force});
+  visitor.visit_all("held nodes", saved);
+  visitor.visit_sum("work at planes", work);
+  visitor.visit_sums("impulses at planes", impulse);
+  visitor.visit_largest("farthest beyond planes", farthest);
+  if (visitor.is_restoring())
+    restore_held(std::move(saved));
+}
+
+void SymmetryWalls::restore_held(std::vector<SavedHeld> saved)
+{
+  // Those of a node come from one rank, in the order of its walls.
+  std::stable_sort(saved.begin(), saved.end(),
+                   [](const SavedHeld &a, const SavedHeld &b) {
+                     return a.body != b.body ? a.body < b.body
+                                             : a.node < b.node;
+                   });
+  held.clear();
+  for (const SavedHeld &h : saved)
+  {
+    const NodalState &nodes = bodies[h.body]->nodes();
+    const auto end = nodes.global_id.begin() + nodes.n_owned,
+               at = std::lower_bound(nodes.global_id.begin(), end, h.node);
+    if (at != end && *at == h.node)
+      held.push_back({std::uint32_t(h.body),
+                      std::uint32_t(at - nodes.global_id.begin()), h.axis,
+                      h.step, h.force});
+  }
 }
 } // namespace sabot

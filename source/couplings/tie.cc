@@ -108,7 +108,8 @@ void Tie::prepare_forces(const std::vector<Constraint> &constraints)
                             owned_number(following.nodes(), key)) -
            owned_followers.begin();
   };
-  std::vector<GlobalIndex> remote;
+  std::vector<GlobalIndex> &remote = remote_followers;
+  remote.clear();
   std::vector<int> remote_owner;
   forces.clear();
   for (const Constraint &c : constraints)
@@ -239,12 +240,20 @@ void Tie::add_energies(EnergyLedger &ledger) const
 
 void Tie::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("work", work);
+  const std::vector<GlobalIndex> &ids = bodies[follower]->nodes().global_id;
+  std::vector<GlobalIndex> keys;
+  for (const std::size_t i : owned_followers)
+    keys.push_back(ids[i]);
+  keys.insert(keys.end(), remote_followers.begin(), remote_followers.end());
+  const StateItems items = {visitor.section + "/followers", keys.data(),
+                            owned_followers.size(), keys.size()};
+  visitor.visit_keys(items);
+  visitor.visit_sum("work", work);
   // Half of their work along the next step is still to be counted.
-  visitor.visit_array("follower force", follower_force);
-  visitor.visit_array("impulse", impulse);
-  visitor.visit_array("added mass handed on", handed_on);
-  visitor.visit_value("energy of added mass", added_energy);
+  visitor.visit_items("follower force", follower_force, items);
+  visitor.visit_items("impulse", impulse, items);
+  visitor.visit_items("added mass handed on", handed_on, items);
+  visitor.visit_sum("energy of added mass", added_energy);
 }
 
 std::vector<Resultant> Tie::resultants() const

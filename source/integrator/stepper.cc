@@ -45,6 +45,10 @@ void Stepper::visit_state(StateVisitor &visitor)
   visitor.visit_value("time", integrator.time);
   visitor.visit_value("step", n_steps);
   visitor.visit_value("step size", dt);
+}
+
+void Stepper::visit_substeps(StateVisitor &visitor)
+{
   integrator.substeps.visit_state(visitor);
 }
 } // namespace sabot

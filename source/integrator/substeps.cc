@@ -155,7 +155,8 @@ void Substeps::visit_state(StateVisitor &visitor)
   {
     visitor.visit_value("substeps of " + member.body->name, member.n);
     visitor.visit_value("substeps made by " + member.body->name, member.made);
-    visitor.visit_array("own force of " + member.body->name, member.own);
+    visitor.visit_items("own force of " + member.body->name, member.own,
+                        nodes_of_state(*member.body));
     if (visitor.is_restoring())
     {
       member.body->nodes().n_substeps = member.n;

@@ -72,8 +72,14 @@ Resultant NodalForces::resultant(const std::string &name,
 void NodalForces::visit_state(StateVisitor &visitor)
 {
   follow_body(); // whose nodes have been restored
-  visitor.visit_array("force of " + body.name, force);
-  visitor.visit_array("work on " + body.name, work);
-  visitor.visit_array("impulse on " + body.name, impulse);
+  std::vector<GlobalIndex> keys;
+  for (const std::size_t i : nodes)
+    keys.push_back(body.nodes().global_id[i]);
+  const StateItems items = {visitor.section + "/loaded nodes of " + body.name,
+                            keys.data(), keys.size(), keys.size()};
+  visitor.visit_keys(items);
+  visitor.visit_items("force of " + body.name, force, items);
+  visitor.visit_items("work on " + body.name, work, items);
+  visitor.visit_items("impulse on " + body.name, impulse, items);
 }
 } // namespace sabot

@@ -68,9 +68,9 @@ public:
   {
     visitor.visit_value("factor", factor);
     visitor.visit_value("factor at the end of the step", last_factor);
-    visitor.visit_value("work", constraints.work());
-    visitor.visit_value("kinetic work", kinetic_work);
-    constraints.visit_state(visitor);
+    visitor.visit_sum("work", constraints.work());
+    visitor.visit_sum("kinetic work", kinetic_work);
+    constraints.visit_state(visitor, body.name, body.nodes());
   }
 
   static void declare(Parameters &prm);

@@ -58,14 +58,19 @@ void list_items(const Scene &scene, CostPlan &plan, MPI_Comm communicator)
 
 double checkpoint_size(const Scene &scene, MPI_Comm communicator)
 {
-  StateSaver saver;
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  double bytes = 0.;
+  StateSaver saver(
+      [&](const StateLine &line, const void *)
+      {
+        if (rank == 0 || line.share != static_cast<char>(StateShare::same))
+          bytes += line.n_bytes();
+      });
   for (const auto &body : scene.bodies)
     body->visit_state(saver);
   for (const auto &load : scene.loads)
     load->visit_state(saver);
-  double bytes = 0.;
-  for (const StateBlock &saved : saver.blocks)
-    bytes += saved.bytes.size();
   return sum_over_ranks(bytes, communicator);
 }
 } // namespace

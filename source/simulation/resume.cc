@@ -150,7 +150,7 @@ bool belongs(const CheckpointHeader &header, const std::string &file,
   return false;
 }
 
-ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
+ResumePoint find_on_one_rank(const std::string &folder)
 {
   if (!std::filesystem::is_directory(folder))
     throw InputError("", "no results folder \"" + folder + "\"");
@@ -172,7 +172,7 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
     CheckpointHeader header;
     try
     {
-      header = CheckpointFolder::verify(file);
+      header = CheckpointFile::verify(file);
     }
     catch (const IOError &e)
     {
@@ -183,12 +183,6 @@ ResumePoint find_on_one_rank(const std::string &folder, const int n_ranks)
     is_any_whole = true;
     if (!belongs(header, file, present, point.scene, point))
       continue;
-    if (header.n_ranks != n_ranks)
-      throw InputError("", "checkpoint \"" + file + "\" was written on " +
-                               std::to_string(header.n_ranks) +
-                               " ranks and can only be resumed on as many; "
-                               "use mpirun -np " +
-                               std::to_string(header.n_ranks));
     point.checkpoint = file;
     point.time = header.time;
     if (header.version != version())
@@ -226,15 +220,14 @@ ResumePoint find_resume_point(const std::string &folder,
                               MPI_Comm communicator)
 {
   check_overrides(overrides);
-  int rank, n_ranks;
+  int rank;
   MPI_Comm_rank(communicator, &rank);
-  MPI_Comm_size(communicator, &n_ranks);
   ResumePoint point;
   std::string input_problem, file_problem;
   if (rank == 0)
     try
     {
-      point = find_on_one_rank(folder, n_ranks);
+      point = find_on_one_rank(folder);
     }
     catch (const InputError &e)
     {

@@ -4,6 +4,7 @@
 #include "sabot/base/error_report.h"
 
 #include <cstdio>
+#include <memory>
 
 namespace sabot
 {
@@ -14,7 +15,7 @@ double Run::seconds_since_start() const
       .count();
 }
 
-void Run::visit_state(StateVisitor &visitor)
+void Run::visit_state(StateVisitor &visitor, double &wall_seconds)
 {
   stepper.visit_state(visitor);
   visitor.visit_value("smallest step", smallest_step);
@@ -28,37 +29,21 @@ void Run::visit_state(StateVisitor &visitor)
   forces.visit_state(visitor);
   control_shares.visit_state(visitor);
   step_shares.visit_state(visitor);
-  double seconds = earlier_seconds + seconds_since_start();
-  visitor.visit_value("wall seconds", seconds);
-  if (visitor.is_restoring())
-    earlier_seconds = seconds - seconds_since_start();
+  visitor.visit_largest("wall seconds", wall_seconds);
   files.visit_state(visitor);
 }
 
-template <typename Visitor>
-void Run::visit_all(Visitor &visitor)
+void Run::visit_all(StateVisitor &visitor, double &wall_seconds)
 {
   visitor.section = "run";
-  visit_state(visitor);
+  visit_state(visitor, wall_seconds);
   for (const auto &body : scene.bodies)
   {
     visitor.section = "body " + body->name;
-    // The partition must be the one of the run that wrote it; ghosts follow
-    // from the state of the body, and of one that grows the nodes, too.
-    const bool grows = body->particle_sink() != nullptr;
-    if (grows)
-      body->visit_state(visitor);
-    const auto &ids = body->nodes().global_id;
-    const std::vector<GlobalIndex> owned(ids.begin(),
-                                         ids.begin() + body->nodes().n_owned);
-    std::vector<GlobalIndex> nodes = owned;
-    visitor.visit_array("nodes", nodes);
-    if (nodes != owned)
-      throw IOError("the checkpoint does not fit: nodes of body \"" +
-                    body->name + "\" are spread over the ranks otherwise");
-    if (!grows)
-      body->visit_state(visitor);
+    body->visit_state(visitor);
   }
+  visitor.section = "substeps";
+  stepper.visit_substeps(visitor);
   for (const auto &load : scene.loads)
   {
     visitor.section = "load " + load->name;
@@ -80,10 +65,16 @@ void Run::write_checkpoint(const std::string &name)
   header.n_ranks = n_ranks;
   header.step = stepper.steps();
   header.time = stepper.time();
-  StateSaver saver;
-  within_memory("a copy of the state for a checkpoint",
-                [&]() { visit_all(saver); });
-  const std::size_t n_bytes = checkpoints.write(header, saver.blocks, name);
+  // The same whenever the state is shown.
+  const double wall_seconds = earlier_seconds + seconds_since_start();
+  const auto visit = [&](StateVisitor &visitor)
+  {
+    double seconds = wall_seconds;
+    visit_all(visitor, seconds);
+  };
+  std::size_t n_bytes = 0;
+  within_memory("a checkpoint",
+                [&]() { n_bytes = checkpoints.write(header, visit, name); });
   char text[200];
   std::snprintf(text, sizeof(text),
                 "checkpoint at step %u, time %.4e s (%.1f MB)%s",
@@ -94,10 +85,15 @@ void Run::write_checkpoint(const std::string &name)
 
 void Run::restore(const std::string &checkpoint)
 {
+  int n_before = n_ranks;
   try
   {
-    StateRestorer restorer(CheckpointFolder::read(checkpoint, rank));
-    visit_all(restorer);
+    const auto file = std::make_shared<CheckpointFile>(checkpoint);
+    n_before = file->n_ranks();
+    StateRestorer restorer(file, rank, n_ranks);
+    double wall_seconds = 0.;
+    visit_all(restorer, wall_seconds);
+    earlier_seconds = wall_seconds - seconds_since_start();
   }
   catch (const IOError &e)
   {
@@ -114,6 +110,9 @@ void Run::restore(const std::string &checkpoint)
   char text[200];
   std::snprintf(text, sizeof(text), "resumed at step %u, time %.6e s",
                 stepper.steps(), stepper.time());
-  log.line(text);
+  log.line(text + (n_before == n_ranks
+                       ? std::string()
+                       : ", written on " + std::to_string(n_before) +
+                             (n_before == 1 ? " rank" : " ranks")));
 }
 } // namespace sabot

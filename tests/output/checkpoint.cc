@@ -51,14 +51,16 @@ protected:
     header.n_ranks = 1;
     header.step = step;
     header.time = 1. / 7.;
-    StateSaver saver;
-    saver.section = "body a b/c";
-    state.visit(saver);
-    CheckpointFolder(folder, MPI_COMM_SELF).write(header, saver.blocks, name);
+    const auto visit = [&](StateVisitor &visitor)
+    {
+      visitor.section = "body a b/c";
+      state.visit(visitor);
+    };
+    CheckpointFolder(folder, MPI_COMM_SELF).write(header, visit, name);
   }
   static State restore(const std::string &file)
   {
-    StateRestorer restorer(CheckpointFolder::read(file, 0));
+    StateRestorer restorer(std::make_shared<CheckpointFile>(file), 0, 1);
     restorer.section = "body a b/c";
     State state;
     state.position = {0., 0., 0.};
@@ -83,7 +85,7 @@ TEST_F(Checkpoint, gives_back_every_bit_and_keeps_the_last_two)
   ASSERT_EQ(files.size(), 2u);
   EXPECT_EQ(files[0], folder + "/step-0000000900.h5");
   EXPECT_EQ(files[1], folder + "/step-0000000070.h5");
-  const CheckpointHeader header = CheckpointFolder::verify(files[0]);
+  const CheckpointHeader header = CheckpointFile::verify(files[0]);
   EXPECT_EQ(header.version, "1.2.3");
   EXPECT_EQ(header.parameters, "set Title = test\n");
   EXPECT_EQ(header.step, 900u);
@@ -112,14 +114,14 @@ TEST_F(Checkpoint, damage_anywhere_is_seen)
     std::string damaged = whole;
     damaged[i] ^= 0x40;
     put(damaged);
-    EXPECT_THROW(CheckpointFolder::verify(file), IOError) << "byte " << i;
+    EXPECT_THROW(CheckpointFile::verify(file), IOError) << "byte " << i;
   }
   put(whole.substr(0, whole.size() / 2));
-  EXPECT_THROW(CheckpointFolder::verify(file), IOError);
+  EXPECT_THROW(CheckpointFile::verify(file), IOError);
   put("");
-  EXPECT_THROW(CheckpointFolder::verify(file), IOError);
+  EXPECT_THROW(CheckpointFile::verify(file), IOError);
   put(whole);
-  EXPECT_NO_THROW(CheckpointFolder::verify(file));
+  EXPECT_NO_THROW(CheckpointFile::verify(file));
   EXPECT_EQ(restore(file).position, state.position);
 }
 
@@ -128,7 +130,8 @@ TEST_F(Checkpoint, a_state_of_another_shape_is_refused)
   State state;
   write(state, 1);
   StateRestorer restorer(
-      CheckpointFolder::read(CheckpointFolder::list(folder)[0], 0));
+      std::make_shared<CheckpointFile>(CheckpointFolder::list(folder)[0]), 0,
+      1);
   restorer.section = "body a b/c";
   std::vector<double> longer(4);
   EXPECT_THROW(restorer.visit_array("position", longer), IOError);

@@ -89,13 +89,17 @@ TEST_F(Outputs, no_time_is_written_twice_and_a_resumed_run_goes_on)
   files.history.append("ledger", {{"time", "s", 0.}, {"total", "J", 2.}});
   const auto output = make("VTU", "1 us");
   output->write_when_due({0., 0, false, {}}, files);
-  StateSaver saver;
-  files.visit_state(saver);
-  output->visit_state(saver, "next some");
+  const auto saved = std::make_shared<StateCopies>();
+  saved->add_rank(
+      [&](StateVisitor &visitor)
+      {
+        files.visit_state(visitor);
+        output->visit_state(visitor, "next some");
+      });
 
   RunFiles again(folder, MPI_COMM_WORLD);
   const auto other = make("VTU", "1 us");
-  StateRestorer restorer(saver.blocks);
+  StateRestorer restorer(saved, 0, 1);
   again.visit_state(restorer);
   other->visit_state(restorer, "next some");
   EXPECT_FALSE(again.write_fields(0., {}));

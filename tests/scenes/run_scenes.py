@@ -1090,10 +1090,6 @@ class Scenes(unittest.TestCase):
                     self.assertEqual(a.read(), b.read(), name)
             self.assertGreater(result(parted)["bodies"]["core"]
                                ["bonds_broken_fraction"], 0.01)
-            # The other number of ranks is refused.
-            done = sabot("resume", parted, "--quiet", ranks=3 - ranks)
-            self.assertEqual(done.returncode, 1, done.stdout)
-            self.assertIn("mpirun -np %d" % ranks, done.stdout)
 
     def test_all_kinds_of_bodies_resume_bit_for_bit(self):
         erosion = os.path.join(SOURCE, "prm/perforation/fem-erosion.prm")

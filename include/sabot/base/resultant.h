@@ -35,6 +35,12 @@ public:
     for (int d = 0; d < 3; ++d)
       sum[d].add(v[d]);
   }
+  /** Another sum, without any error. */
+  void add(const ExactVectorSum &other)
+  {
+    for (int d = 0; d < 3; ++d)
+      sum[d].add(other.sum[d]);
+  }
   /** Of this rank, or of all after reduce(). */
   std::array<double, 3> value() const
   {

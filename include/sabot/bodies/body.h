@@ -409,6 +409,14 @@ protected:
 /** Mass, velocity, kinetic energy, bounds and what has eroded of a body
    together with the particles that its cells turned into. Collective. */
 BodyMeasures measure_with_particles(const Body &body);
+
+/** The nodes here, as arrays of a state belong to them. */
+inline StateItems nodes_of_state(const Body &body)
+{
+  const NodalState &nodes = body.nodes();
+  return {"body " + body.name + "/nodes", nodes.global_id.data(), nodes.n_owned,
+          nodes.size()};
+}
 } // namespace sabot
 
 #endif

@@ -106,14 +106,15 @@ class ParticleSink
 public:
   virtual ~ParticleSink() = default;
 
+  /** Before the first particle: each is on the rank that has its node.
+      @p owner: of the host's nodes; outlives this. */
+  virtual void live_with(const std::vector<int> &owner) = 0;
   /** Make particles of matter, or let those that are there take it, with
       position and velocity of @p host's nodes; then kernels, bonds and forces
-      of now. @p owner: of the host's nodes. Adds to @p lost what of the elastic
-      energy is gone by taking means [J]. Collective; @p step: the number of the
-      step that ended. */
+      of now. Adds to @p lost what of the elastic energy is gone by taking means
+      [J]. Collective; @p step: the number of the step that ended. */
   virtual void take(const NodalMatter &matter, const NodalState &host,
-                    const std::vector<int> &owner, const unsigned int step,
-                    ExactSum &lost) = 0;
+                    const unsigned int step, ExactSum &lost) = 0;
   /** Of every particle of the body, by its number; the same on all ranks. */
   virtual const std::vector<GlobalIndex> &host_nodes() const = 0;
   /** Local numbers of owned particles beside broken bonds. */

@@ -79,7 +79,8 @@ public:
   /** Mass, and the momentum that the added mass has won since it came.
       Collective. */
   void add_measures(BodyMeasures &measures) const;
-  void visit_state(StateVisitor &visitor);
+  /** @p items: the body's nodes. */
+  void visit_state(StateVisitor &visitor, const StateItems &items);
 
 protected:
   /** (dt_min/@p step)^2 - 1, at least 0: over its mass, what must have been

@@ -209,8 +209,10 @@ public:
       Values in the order of points; units as registered in body_report.cc. */
   void add_fields(FieldList &fields,
                   const std::vector<std::size_t> &points) const;
-  /** Everything that a restart needs, padding included; bit by bit. */
-  void visit_state(StateVisitor &visitor);
+  /** Everything that a restart needs, bit by bit; @p per_item points of each of
+      the @p items. What pads rows gets copies of the last point. */
+  void visit_state(StateVisitor &visitor, const StateItems &items,
+                   const std::size_t per_item);
 
   AlignedVector<double> stress;           // [6][stride()] Cauchy [Pa]
   AlignedVector<double> state_data;       // [n_rows()][stride()]

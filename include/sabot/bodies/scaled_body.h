@@ -35,7 +35,7 @@ protected:
   void visit_scaling(StateVisitor &visitor)
   {
     if (scaling)
-      scaling->visit_state(visitor);
+      scaling->visit_state(visitor, nodes_of_state(*this));
   }
 
   std::unique_ptr<MassScaling> scaling; // only where asked for

@@ -72,8 +72,9 @@ public:
   /** The same, of all kinds that there are on any rank. Collective. */
   std::vector<Resultant> reactions(const NodalState &nodes, const int body,
                                    MPI_Comm communicator) const;
-  /** Impulses so far. */
-  void visit_state(StateVisitor &visitor);
+  /** Impulses so far, on the @p nodes of @p body. */
+  void visit_state(StateVisitor &visitor, const std::string &body,
+                   const NodalState &nodes);
   /** Energy of half a kick by the present forces alone, of owned nodes and
       free components: sum of m |dt f/(2 m)|^2/2 [J], see
       Body::add_kick_energy(). */

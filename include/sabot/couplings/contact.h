@@ -93,15 +93,28 @@ private:
     ContactMemory memory;
     double wake, patch_radius, share, cut;
   };
+  struct SavedFace
+  {
+    NodeKey key; // body and number of the face
+    std::array<GlobalIndex, 4> node;
+  };
   struct SavedGroups
   {
-    std::vector<SavedGroup> groups;
-    std::vector<std::int64_t> face_of_node; // FaceStanding::face_of_node
-    std::vector<NodeKey> face_nodes;        // four a face
+    std::vector<SavedGroup> groups;      // of nodes owned here
+    std::vector<NodeKey> faces_of_nodes; // of the groups, keys of faces
+    std::vector<SavedFace> faces;        // several ranks may have one
   };
-  /** Halo, groups and faces as they were: candidates cannot be found anew, for
-      the bodies moved since the last search. Collective. */
-  void restore_groups(const SavedGroups &saved);
+  NodeKey key_of_face(const std::size_t f) const
+  {
+    return {halo.key(faces.corners[f][0]).body, 0, face_ids[f]};
+  }
+  SavedGroups save_groups() const;
+  /** Halo, groups and faces as they were, of what all ranks saved: candidates
+      cannot be found anew, for the bodies moved since the last search.
+      Collective. */
+  void restore_groups(SavedGroups &saved);
+  Group restored_group(const SavedGroup &from, const SearchResult &found,
+                       const std::vector<std::size_t> &number_of_face);
   /** Ask the bodies of all pairs for their surfaces, which erosion changes. */
   void update_surfaces();
   /** ContactPatch::radius() between two bodies [m]. */
@@ -160,6 +173,7 @@ private:
   NodeHalo halo;
   FaceStanding faces;
   ContactPatch patch;
+  std::vector<GlobalIndex> face_ids; // of the faces, ContactSurface::face_id
   std::vector<Group> groups;
   std::vector<ContactSurface> surfaces; // of the pairs' bodies
   HaloForces forces;

@@ -54,10 +54,13 @@ public:
              const NodeHalo &halo, MPI_Comm communicator,
              const bool with_own = false) const;
   /** After resize(): forces are part of the state, for half of their work along
-      the next step is still to be counted. */
-  void visit_state(StateVisitor &visitor);
+      the next step is still to be counted. @p slots: those of the halo. */
+  void visit_state(StateVisitor &visitor, const NodeHalo &halo,
+                   const StateItems &slots);
 
 private:
+  /** Nothing yet on the owned slots of a new halo. */
+  void start_impulses(const NodeHalo &halo);
   /** To the bodies' sums: what the slots of the last halo got. */
   void settle_impulses();
 

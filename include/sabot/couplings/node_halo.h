@@ -73,6 +73,10 @@ public:
   std::size_t n_owned() const { return owned_body.size(); }
   std::size_t size() const { return key_of_slot.size(); }
   const NodeKey &key(const std::size_t slot) const { return key_of_slot[slot]; }
+  /** Keys of all slots as one number each, for arrays of a state; of the bodies
+      that the halo was built of. */
+  std::vector<GlobalIndex> numbers() const;
+  std::size_t n_bodies() const { return all_bodies.size(); }
   /** Velocity of an owned slot in its body, now, [m/s]; the copy in velocity is
       that of the last update(). */
   Vec body_velocity(const std::size_t slot) const

@@ -80,6 +80,8 @@ private:
     double largest_friction; // that the metals bear [N]
     std::size_t slot[2];
   };
+  /** By keys. */
+  static bool comes_before(const Pair &p, const Pair &q);
   /** Pairs, halo and, where friction is held below yield, what the metals
       bear. Collective. */
   void search();

@@ -70,6 +70,8 @@ private:
   };
   /** Turn these cells. Collective; @return whether any rank had one. */
   bool convert(const std::vector<std::size_t> &cells, const unsigned int step);
+  /** An owned particle and its node. */
+  Shared pair_of(const std::size_t i) const;
   /** Pairs of the particles from @p first on. */
   void pair_new(const std::size_t first);
   /** Particles whose nodes lost their last cells move by themselves. */

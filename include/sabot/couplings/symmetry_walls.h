@@ -82,6 +82,16 @@ private:
     double step;              // of rigid bodies, longest since it came in [s]
     Vec force;                // [N]
   };
+  /** The same in a checkpoint, by the node's global number. */
+  struct SavedHeld
+  {
+    std::int64_t body, axis;
+    GlobalIndex node;
+    double step;
+    Vec force;
+  };
+  /** Of what all ranks held, the nodes that are owned here. */
+  void restore_held(std::vector<SavedHeld> saved);
   /** Pushes @p h, so far without a force, off the wall; @p next: its mass times
       its distance one step on [kg m], @p before: who was held in the last
       step. */

@@ -116,9 +116,10 @@ private:
   NodeHalo leaders;         // of the followers owned here
   std::vector<Term> motion; // owned followers from leaders
   GhostExchange force_exchange;
-  std::vector<std::size_t> owned_followers; // local, ascending
-  AlignedVector<Vec> follower_force;        // owned, then others'
-  std::vector<Term> forces;                 // owned leaders from followers
+  std::vector<std::size_t> owned_followers;  // local, ascending
+  AlignedVector<Vec> follower_force;         // owned, then others'
+  std::vector<GlobalIndex> remote_followers; // global numbers of those
+  std::vector<Term> forces;                  // owned leaders from followers
   ExactSum work; // of the tie, on owned followers and leaders [J]
   // Of owned followers.
   AlignedVector<Vec> impulse;        // of their own forces so far [N s]

@@ -92,6 +92,8 @@ public:
   void update() { integrator.update_topology(n_steps); }
   /** Time, number and size of steps. */
   void visit_state(StateVisitor &visitor);
+  /** After the state of the bodies. */
+  void visit_substeps(StateVisitor &visitor);
 
   double time() const { return integrator.time; } // [s]
   unsigned int steps() const { return n_steps; }  // made so far

@@ -82,7 +82,8 @@ public:
   void before_update();
   void after_update();
 
-  /** Of members, how many steps they make and their own forces. */
+  /** Of members, how many steps they make and their own forces. After that of
+      the bodies. */
   void visit_state(StateVisitor &visitor);
 
 private:

@@ -112,14 +112,15 @@ private:
    */
   void write_result(const std::string &status, const std::string &reason);
   /** Numbers of the run itself, then of all bodies and couplings. */
-  template <typename Visitor>
-  void visit_all(Visitor &visitor);
-  /** Stepper, limits met, due times, balance, wall time, histories. */
-  void visit_state(StateVisitor &visitor);
+  void visit_all(StateVisitor &visitor, double &wall_seconds);
+  /** Stepper, limits met, due times, balance, histories, and the wall time of
+      the run so far. */
+  void visit_state(StateVisitor &visitor, double &wall_seconds);
   /** @p name: see CheckpointFolder::write(). Collective. */
   void write_checkpoint(const std::string &name = "");
   /**
-   * Overwrites all state with this rank's blocks of the file. IOError where
+   * Overwrites all state with what the file has of this rank's part of the
+   * scene, whatever the number of ranks that wrote it. IOError where
    * they do not fit the scene; with more than one rank it ends the process
    * instead, as others may be waiting in a collective call.
    */

@@ -339,10 +339,10 @@ double BBar::volume_ratio(const std::size_t e) const
   return present / volume[e];
 }
 
-void BBar::visit_state(StateVisitor &visitor)
+void BBar::visit_state(StateVisitor &visitor, const StateItems &of_cells)
 {
-  visitor.visit_array("motion", motion);
-  Hexahedra::visit_state(visitor);
+  visitor.visit_items("motion", motion, of_cells);
+  Hexahedra::visit_state(visitor, of_cells);
 }
 
 namespace

@@ -342,31 +342,36 @@ void FemBody::fill_output(OutputMesh &out) const
 
 void FemBody::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_array("position", nodal_state.position);
-  visitor.visit_array("velocity", nodal_state.velocity);
-  visitor.visit_array("force", nodal_state.force);
-  visitor.visit_array("inertia", nodal_state.inertia);
+  const StateItems items = nodes_of_state(*this);
+  visitor.visit_keys(items);
+  visitor.visit_items("position", nodal_state.position, items);
+  visitor.visit_items("velocity", nodal_state.velocity, items);
+  visitor.visit_items("force", nodal_state.force, items);
+  visitor.visit_items("inertia", nodal_state.inertia, items);
   if (living)
   {
-    living->visit_state(visitor);
+    living->visit_state(visitor, name);
     visitor.visit_value("surface version", surface_version);
   }
   if (erosion)
     erosion->visit_state(visitor);
   if (conversion.is_on())
   {
-    visitor.visit_array("lumped mass", nodal_state.lumped_mass);
-    conversion.visit_state(visitor);
+    visitor.visit_items("lumped mass", nodal_state.lumped_mass, items);
+    conversion.visit_state(visitor, living->items(name));
   }
-  cells->visit_state(visitor);
+  const StateItems of_cells = {"body " + name + "/cells", cells->cell_id.data(),
+                               cells->size(), cells->size()};
+  visitor.visit_keys(of_cells);
+  cells->visit_state(visitor, of_cells);
   visit_scaling(visitor);
   if (heat)
   {
-    heat->visit_state(visitor);
+    heat->visit_state(visitor, items, of_cells);
     visitor.visit_value("last conduction", last_conduction);
   }
-  visitor.visit_value("external work", constraints.work());
-  constraints.visit_state(visitor);
+  visitor.visit_sum("external work", constraints.work());
+  constraints.visit_state(visitor, name, nodal_state);
 }
 
 ContactSurface FemBody::contact_surface() const

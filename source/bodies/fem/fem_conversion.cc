@@ -149,14 +149,19 @@ NodalMatter FemConversion::give(const std::vector<std::size_t> &leaving)
     entry.mass += rest;
     rest = 0.;
   }
-  if (!leaving.empty())
-    body.surface_has_changed();
+  body.surface_has_changed(); // of some rank at least: all ask for it anew
   return matter;
 }
 
-void FemConversion::visit_state(StateVisitor &visitor)
+void FemConversion::visit_state(StateVisitor &visitor,
+                                const StateItems &initial_cells)
 {
-  visitor.visit_resized("steps of the start", start_steps);
-  visitor.visit_value("dissipated hourglass energy", dissipated_modes);
+  // A rank without cells cannot tell by itself.
+  int knows_steps = !start_steps.empty();
+  visitor.visit_largest("steps of the start are known", knows_steps);
+  if (knows_steps)
+    start_steps.resize(initial_cells.n_held);
+  visitor.visit_items("steps of the start", start_steps, initial_cells);
+  visitor.visit_sum("dissipated hourglass energy", dissipated_modes);
 }
 } // namespace sabot

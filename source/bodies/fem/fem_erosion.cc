@@ -64,10 +64,10 @@ void FemErosion::remove(const std::vector<std::size_t> &condemned)
 
 void FemErosion::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_value("eroded mass", mass);
-  visitor.visit_value("eroded energy", energy);
-  visitor.visit_value("eroded plastic work", plastic_work);
-  visitor.visit_value("eroded cells", n_cells);
+  visitor.visit_sum("eroded mass", mass);
+  visitor.visit_sum("eroded energy", energy);
+  visitor.visit_sum("eroded plastic work", plastic_work);
+  visitor.visit_sum("eroded cells", n_cells);
 }
 
 void FemErosion::add_energies(EnergyLedger &ledger) const

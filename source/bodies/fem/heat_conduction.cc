@@ -190,12 +190,11 @@ void HeatConduction::advance(const NodalState &nodes, const double dt,
   }
 }
 
-void HeatConduction::visit_state(StateVisitor &visitor)
+void HeatConduction::visit_state(StateVisitor &visitor, const StateItems &nodes,
+                                 const StateItems &of_cells)
 {
-  visitor.visit("nodal temperature", nodal_temperature.data(),
-                nodal_temperature.size(), sizeof(double));
-  visitor.visit("conducted temperature", last_temperature.data(),
-                last_temperature.size(), sizeof(double));
-  visitor.visit("conduction started", &is_started, 1, sizeof(double));
+  visitor.visit_items("nodal temperature", nodal_temperature, nodes);
+  visitor.visit_items("conducted temperature", last_temperature, of_cells);
+  visitor.visit_value("conduction started", is_started);
 }
 } // namespace sabot

@@ -259,13 +259,15 @@ Hexahedra::flow_stress(const std::vector<std::size_t> &some) const
   return of_cells;
 }
 
-void Hexahedra::visit_state(StateVisitor &visitor)
+void Hexahedra::visit_state(StateVisitor &visitor, const StateItems &of_cells)
 {
-  points.visit_state(visitor);
-  visitor.visit_array("polar rotation", polar_rotation);
-  visitor.visit_array("hourglass energy", hourglass_energy);
-  visitor.visit_array("added share", added_share);
-  visitor.visit_value("stable step", smallest_step.dt);
-  visitor.visit_value("stable step item", smallest_step.item);
+  points.visit_state(visitor, of_cells, n_points);
+  visitor.visit_items("polar rotation", polar_rotation, of_cells, n_points);
+  if (visitor.is_restoring() && size() > 0 && !polar_rotation.empty())
+    std::fill(polar_rotation.begin() + size() * n_points, polar_rotation.end(),
+              polar_rotation[size() * n_points - 1]);
+  visitor.visit_items("hourglass energy", hourglass_energy, of_cells);
+  visitor.visit_items("added share", added_share, of_cells);
+  visitor.visit_step("stable step", smallest_step.dt, smallest_step.item);
 }
 } // namespace sabot

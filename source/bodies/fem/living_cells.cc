@@ -23,6 +23,7 @@ LivingCells::LivingCells(NodalState &nodal_state, Hexahedra &cells,
   nodes = cells.connectivity;
   id = cells.cell_id;
   alive.assign(n, 1);
+  has_opened.assign(n, 0);
   cells_of_node.assign(nodal_state.size(), 0);
   bare_node.assign(nodal_state.n_owned, 0);
   for (std::size_t e = 0; e < n; ++e)
@@ -94,6 +95,7 @@ void LivingCells::take_out(const std::vector<std::size_t> &leaving,
       nodal_state.force[cells.connectivity[e][a]] -= force[a];
     gone.push_back(initial[e]);
     alive[initial[e]] = 0;
+    has_opened[initial[e]] = opens;
   }
   update_boundary(gone, opens);
   compact();
@@ -120,6 +122,13 @@ void LivingCells::update_boundary(const std::vector<std::uint32_t> &gone,
   face_cell.resize(kept);
   if (!opens)
     return;
+  struct Face
+  {
+    GlobalIndex id;
+    std::array<std::size_t, 4> corners;
+    std::int32_t cell;
+  };
+  std::vector<Face> opened;
   for (const std::uint32_t cell : gone)
     for (const std::int32_t other : across[cell])
     {
@@ -131,10 +140,25 @@ void LivingCells::update_boundary(const std::vector<std::uint32_t> &gone,
       std::array<std::size_t, 4> face;
       for (int a = 0; a < 4; ++a)
         face[a] = nodes[other][face_corner[f][a]];
-      boundary.faces.push_back(face);
-      boundary.face_id.push_back(n_boundary_faces + 6 * id[other] + f);
-      face_cell.push_back(other);
+      opened.push_back({n_boundary_faces + 6 * id[other] + f, face, other});
     }
+  // In one order, however and whenever cells went.
+  const auto before = [](const Face &a, const Face &b) { return a.id < b.id; };
+  std::sort(opened.begin(), opened.end(), before);
+  const std::ptrdiff_t n_new = opened.size();
+  for (std::size_t f = 0; f < kept; ++f)
+    opened.push_back({boundary.face_id[f], boundary.faces[f], face_cell[f]});
+  std::inplace_merge(opened.begin(), opened.begin() + n_new, opened.end(),
+                     before);
+  boundary.faces.clear();
+  boundary.face_id.clear();
+  face_cell.clear();
+  for (const Face &face : opened)
+  {
+    boundary.faces.push_back(face.corners);
+    boundary.face_id.push_back(face.id);
+    face_cell.push_back(face.cell);
+  }
 }
 
 void LivingCells::compact()
@@ -152,22 +176,29 @@ void LivingCells::compact()
   cells.keep(kept);
 }
 
-void LivingCells::visit_state(StateVisitor &visitor)
+StateItems LivingCells::items(const std::string &body) const
+{
+  return {"body " + body + "/cells of the start", id.data(), id.size(),
+          id.size()};
+}
+
+void LivingCells::visit_state(StateVisitor &visitor, const std::string &body)
 {
   // A reader must know which cells are left before it fills their arrays.
-  visitor.visit_array("alive cells", alive);
-  if (visitor.is_restoring())
+  const StateItems cells_of_start = items(body);
+  visitor.visit_keys(cells_of_start);
+  visitor.visit_items("alive cells", alive, cells_of_start);
+  visitor.visit_items("opened cells", has_opened, cells_of_start);
+  if (!visitor.is_restoring())
+    return;
+  for (const bool opens : {false, true})
   {
     std::vector<std::uint32_t> gone;
     for (const std::uint32_t cell : initial)
-      if (!alive[cell])
+      if (!alive[cell] && bool(has_opened[cell]) == opens)
         gone.push_back(cell);
-    update_boundary(gone, false);
-    compact();
+    update_boundary(gone, opens);
   }
-  // In the order in which cells went.
-  visitor.visit_resized("boundary faces", boundary.faces);
-  visitor.visit_resized("boundary face ids", boundary.face_id);
-  visitor.visit_resized("cells of boundary faces", face_cell);
+  compact();
 }
 } // namespace sabot

@@ -190,12 +190,19 @@ Mat OnePoint::gradient(const std::size_t e) const
   return lane_of(motion[e / n_lanes], e % n_lanes);
 }
 
-void OnePoint::visit_state(StateVisitor &visitor)
+void OnePoint::visit_state(StateVisitor &visitor, const StateItems &of_cells)
 {
-  visitor.visit_array("motion", motion);
+  // Each pack has four cells.
+  const auto visit =
+      [&](const char *const name, auto &packs, const std::size_t size)
+  {
+    visitor.visit_items(name, packs.data(), packs.size() * n_lanes, size,
+                        of_cells, sizeof(packs[0]) / (n_lanes * size), n_lanes);
+  };
+  visit("motion", motion, sizeof(double));
   if (!keeps_reference_modes())
-    visitor.visit_array("modal forces", last_forces);
-  Hexahedra::visit_state(visitor);
+    visit("modal forces", last_forces, sizeof(float));
+  Hexahedra::visit_state(visitor, of_cells);
 }
 
 namespace

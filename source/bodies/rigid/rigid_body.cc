@@ -326,17 +326,19 @@ void RigidBody::fill_output(OutputMesh &out) const
 
 void RigidBody::visit_state(StateVisitor &visitor)
 {
-  visitor.visit_array("position", nodal_state.position);
-  visitor.visit_array("velocity", nodal_state.velocity);
-  visitor.visit_array("force", nodal_state.force);
-  visitor.visit_array("inertia", nodal_state.inertia);
-  visitor.visit_array("rigid velocity", rigid_velocity);
+  const StateItems items = nodes_of_state(*this);
+  visitor.visit_keys(items);
+  visitor.visit_items("position", nodal_state.position, items);
+  visitor.visit_items("velocity", nodal_state.velocity, items);
+  visitor.visit_items("force", nodal_state.force, items);
+  visitor.visit_items("inertia", nodal_state.inertia, items);
+  visitor.visit_items("rigid velocity", rigid_velocity, items);
   visitor.visit_array("quaternion", quaternion);
   visitor.visit_value("center", center);
   visitor.visit_value("momentum", momentum);
   visitor.visit_value("angular momentum", angular_momentum);
   visitor.visit_value("prescribed spin", prescribed_spin);
-  visitor.visit_value("external work", work);
-  visitor.visit_value("reaction impulse", impulse);
+  visitor.visit_sum("external work", work);
+  visitor.visit_sum("reaction impulse", impulse);
 }
 } // namespace sabot

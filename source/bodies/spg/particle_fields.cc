@@ -37,13 +37,14 @@ void ParticleFields::resize(const std::size_t n_local)
   kernel_reference_position.resize(n_local);
 }
 
-void ParticleFields::visit_state(StateVisitor &visitor)
+void ParticleFields::visit_state(StateVisitor &visitor, const StateItems &items)
 {
-  visitor.visit_array("kernel position", kernel_reference_position);
-  visitor.visit_array("kernel", kernel);
-  visitor.visit_array("kernel volume", kernel_reference_volume);
-  visitor.visit_array("gradient", incremental_deformation_gradient);
-  visitor.visit_array("total gradient", kernel_reference_deformation_gradient);
-  visitor.visit_array("stiffening", stiffening);
+  visitor.visit_items("kernel position", kernel_reference_position, items);
+  visitor.visit_items("kernel", kernel, items);
+  visitor.visit_items("kernel volume", kernel_reference_volume, items);
+  visitor.visit_items("gradient", incremental_deformation_gradient, items);
+  visitor.visit_items("total gradient", kernel_reference_deformation_gradient,
+                      items);
+  visitor.visit_items("stiffening", stiffening, items);
 }
 } // namespace sabot

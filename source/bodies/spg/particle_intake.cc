@@ -41,12 +41,10 @@ void ParticleIntake::set_free(const std::size_t i)
 }
 
 void ParticleIntake::take(const NodalMatter &given, const NodalState &from,
-                          const std::vector<int> &owner,
                           const unsigned int step, ExactSum &lost_energy)
 {
   matter = &given;
   host = &from;
-  host_owner = &owner;
   lost = &lost_energy;
   body.update(step);
   matter = nullptr;
@@ -266,26 +264,24 @@ void ParticleIntake::visit_state(StateVisitor &visitor)
   visitor.visit_value("particles of the last calibration", n_measured);
   visitor.visit_value("times that particles came", n_taken);
   visitor.visit_resized("host nodes", hosts);
-  visitor.visit_resized("owners of particles", body.node_owner);
-  if (visitor.is_restoring())
-  {
-    int rank;
-    MPI_Comm_rank(body.communicator, &rank);
-    body.rank_of = body.node_owner;
-    std::vector<GlobalIndex> ids, mine;
-    for (std::size_t k = 0; k < hosts.size(); ++k)
-      if (body.rank_of[k] == rank)
-      {
-        ids.push_back(k);
-        mine.push_back(hosts[k]);
-      }
-    const std::size_t before = body.nodes.n_owned;
-    body.n_global = hosts.size();
-    extend({mine.begin() + before, mine.end()});
-    std::copy(ids.begin(), ids.end(), body.nodes.global_id.begin());
-  }
-  visitor.visit("mass", body.nodes.lumped_mass.data(), body.nodes.n_owned,
-                sizeof(double));
-  visitor.visit_array("reference volume", body.fields.reference_volume);
+  if (!visitor.is_restoring())
+    return;
+  int rank;
+  MPI_Comm_rank(body.communicator, &rank);
+  body.rank_of.clear();
+  for (const GlobalIndex node : hosts)
+    body.rank_of.push_back((*host_owner)[node]);
+  body.node_owner = body.rank_of;
+  std::vector<GlobalIndex> ids, mine;
+  for (std::size_t k = 0; k < hosts.size(); ++k)
+    if (body.rank_of[k] == rank)
+    {
+      ids.push_back(k);
+      mine.push_back(hosts[k]);
+    }
+  const std::size_t before = body.nodes.n_owned;
+  body.n_global = hosts.size();
+  extend({mine.begin() + before, mine.end()});
+  std::copy(ids.begin(), ids.end(), body.nodes.global_id.begin());
 }
 } // namespace sabot

@@ -205,65 +205,82 @@ SpgBody::flow_stress(const std::vector<std::size_t> &some_nodes) const
   return probe.flow_stress();
 }
 
+namespace
+{
+/** Rows of neighbors as they were saved, of the particles that are @p owned
+    now. */
+BondList::Rows restored_rows(StateVisitor &visitor, const StateItems &owned,
+                             const std::string &name)
+{
+  std::vector<std::uint32_t> lengths(owned.n_held);
+  visitor.visit_items("bond count", lengths, owned);
+  std::vector<std::size_t> starts = {0};
+  for (const std::uint32_t n : lengths)
+    starts.push_back(starts.back() + n);
+  const StateRows shape = {owned, name, starts.data(), lengths.data()};
+  visitor.visit_shape(shape);
+  std::vector<GlobalIndex> neighbors(starts.back());
+  visitor.restore_neighbors("bond neighbor", neighbors.data(), neighbors.size(),
+                            shape);
+  BondList::Rows rows;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+  {
+    rows.add(neighbors.begin() + starts[i], neighbors.begin() + starts[i + 1]);
+    rows.end_row();
+  }
+  return rows;
+}
+} // namespace
+
 void SpgBody::visit_bonds(StateVisitor &visitor)
 {
-  if (options.neighbor_policy != SpgOptions::NeighborPolicy::lagrangian ||
-      failure.keeps_crumbled() || intake)
-  {
-    // The list itself is state.
-    const std::size_t n = nodal_state.n_owned;
-    std::vector<std::uint32_t> lengths(n);
-    std::vector<GlobalIndex> neighbors;
-    for (std::size_t i = 0; i < n && !visitor.is_restoring(); ++i)
-    {
-      lengths[i] = bonds.n_bonds(i);
-      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-        neighbors.push_back(nodal_state.global_id[bonds.neighbor[b]]);
-    }
-    visitor.visit_array("row lengths", lengths);
-    visitor.visit_resized("row neighbors", neighbors);
-    if (visitor.is_restoring())
-    {
-      BondList::Rows rows;
-      auto j = neighbors.begin();
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        rows.add(j, j + lengths[i]);
-        rows.end_row();
-        j += lengths[i];
-      }
-      renumber(rows);
-    }
-  }
-  visitor.visit_array("bond count", bonds.count);
-  visitor.visit_array("bond neighbor", bonds.neighbor);
-  visitor.visit_array("bond weight", bonds.weight);
-  visitor.visit_array("bond scaled weight", bonds.scaled_weight);
+  // The list itself is state: bonds fail, and ranks may be others now.
+  StateItems owned = nodes_of_state(*this);
+  owned.n_held = owned.n_saved;
+  const std::string name_of_rows = "body " + name + "/bonds";
   if (visitor.is_restoring())
-    bonds.reconnect();
-  approximation.visit_bonds(visitor, bonds);
-  stabilization->visit_bonds(visitor, parts);
+    renumber(restored_rows(visitor, owned, name_of_rows));
+  owned.keys = nodal_state.global_id.data();
+  const StateRows rows = bonds.rows(owned, name_of_rows);
+  if (!visitor.is_restoring())
+  {
+    visitor.visit_items("bond count", bonds.count, owned);
+    visitor.visit_shape(rows);
+    visitor.visit_neighbors("bond neighbor", bonds.neighbor.data(),
+                            bonds.capacity(), nodal_state.global_id.data(),
+                            nodal_state.size(), rows);
+  }
+  visitor.visit_rows("bond weight", bonds.weight, rows);
+  visitor.visit_rows("bond scaled weight", bonds.scaled_weight, rows);
+  approximation.visit_bonds(visitor, bonds, rows);
+  stabilization->visit_bonds(visitor, parts, rows);
 }
 
 void SpgBody::visit_state(StateVisitor &visitor)
 {
   if (intake)
     intake->visit_state(visitor);
+  visitor.visit_keys(nodes_of_state(*this));
   visit_bonds(visitor);
-  visitor.visit_array("position", nodal_state.position);
-  visitor.visit_array("velocity", nodal_state.velocity);
-  visitor.visit_array("force", nodal_state.force);
-  visitor.visit_array("inertia", nodal_state.inertia);
-  constraints.visit_state(visitor);
-  fields.visit_state(visitor);
-  points.visit_state(visitor);
-  approximation.visit_state(visitor);
-  stabilization->visit_state(visitor);
-  failure.visit_state(visitor);
-  stable.visit_state(visitor);
-  visitor.visit_value("stable step", watch.stable_step);
-  visitor.visit_value("stable step item", watch.stable_step_item);
-  visitor.visit_value("largest change", watch.largest_change);
+  const StateItems items = nodes_of_state(*this);
+  if (intake)
+  {
+    visitor.visit_items("mass", nodal_state.lumped_mass, items);
+    visitor.visit_items("reference volume", fields.reference_volume, items);
+  }
+  visitor.visit_items("position", nodal_state.position, items);
+  visitor.visit_items("velocity", nodal_state.velocity, items);
+  visitor.visit_items("force", nodal_state.force, items);
+  visitor.visit_items("inertia", nodal_state.inertia, items);
+  constraints.visit_state(visitor, name, nodal_state);
+  fields.visit_state(visitor, items);
+  points.visit_state(visitor, items, 1);
+  approximation.visit_state(visitor, items);
+  stabilization->visit_state(visitor, items);
+  failure.visit_state(visitor, items);
+  stable.visit_state(visitor, items);
+  visitor.visit_step("stable step", watch.stable_step, watch.stable_step_item);
+  visitor.visit_largest("largest change", watch.largest_change);
   visitor.visit_value("kernel updates", watch.n_updates);
   if (intake && visitor.is_restoring())
     heat.set_up(parts, failure, communicator);

@@ -118,9 +118,9 @@ void SpgStableStep::calibrate(const SpgParts &body, Stabilization &form,
       step[i] *= factor / before;
 }
 
-void SpgStableStep::visit_state(StateVisitor &visitor)
+void SpgStableStep::visit_state(StateVisitor &visitor, const StateItems &items)
 {
-  visitor.visit_array("update stable step", step);
+  visitor.visit_items("update stable step", step, items);
   visitor.visit_value("step calibration", factor);
   visitor.visit_value("initial calibration", initial_factor);
   visitor.visit_value("last calibration", last_calibration);

@@ -48,7 +48,7 @@ public:
   double volume_ratio(const std::size_t cell) const override;
   /** Compacts geometry and motion with the points. */
   void keep(const std::vector<std::size_t> &kept) override;
-  void visit_state(StateVisitor &visitor) override;
+  void visit_state(StateVisitor &visitor, const StateItems &of_cells) override;
   void list_memory(MemoryTable &table) const override
   {
     Hexahedra::list_memory(table);

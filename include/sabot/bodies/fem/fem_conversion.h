@@ -61,7 +61,8 @@ public:
   {
     ledger.hourglass.add(dissipated_modes);
   }
-  void visit_state(StateVisitor &visitor);
+  /** @p initial_cells: LivingCells::items(). */
+  void visit_state(StateVisitor &visitor, const StateItems &initial_cells);
 
 private:
   /** Whether cell @p e may turn. */

@@ -40,7 +40,8 @@ public:
   void advance(const NodalState &nodes, const double dt, double *temperature);
 
   /** Nodal temperatures and those that the cells had after the last call. */
-  void visit_state(StateVisitor &visitor);
+  void visit_state(StateVisitor &visitor, const StateItems &nodes,
+                   const StateItems &of_cells);
   /** Of the conjugate gradients, for tests. */
   unsigned int last_iterations() const { return n_iterations; }
 

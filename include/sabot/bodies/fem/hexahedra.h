@@ -80,7 +80,7 @@ public:
       Connectivity and reference data are not part of it: they are set up
       from the mesh before, and eroded cells are taken out before arrays are
       filled. */
-  virtual void visit_state(StateVisitor &visitor);
+  virtual void visit_state(StateVisitor &visitor, const StateItems &of_cells);
   /** Arrays of cells and points; rules add their own. Local. */
   virtual void list_memory(MemoryTable &table) const;
 

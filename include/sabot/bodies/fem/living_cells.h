@@ -49,7 +49,9 @@ public:
 
   /** Before the cells' own visit: a reader must know which are left before it
       fills their arrays. */
-  void visit_state(StateVisitor &visitor);
+  void visit_state(StateVisitor &visitor, const std::string &body);
+  /** All that this rank had at the start, of the body of that name. */
+  StateItems items(const std::string &body) const;
 
 private:
   /** Which cells share a face, by its sorted corners; once, before any goes.
@@ -70,8 +72,9 @@ private:
   std::vector<char> &owned_cell;
   const GlobalIndex n_boundary_faces;
 
-  std::vector<std::uint32_t> initial;              // of active cells
-  std::vector<char> alive;                         // of initial cells
+  std::vector<std::uint32_t> initial; // of active cells
+  std::vector<char> alive;            // of initial cells
+  std::vector<char> has_opened; // went, and faces behind joined the boundary
   std::vector<std::array<std::int32_t, 6>> across; // initial cells or -1
   std::vector<std::array<std::uint32_t, 8>> nodes; // of initial cells
   std::vector<GlobalIndex> id;                     // of initial cells

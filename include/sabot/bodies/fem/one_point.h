@@ -63,7 +63,7 @@ public:
   {
     return keeps_reference_modes();
   }
-  void visit_state(StateVisitor &visitor) override;
+  void visit_state(StateVisitor &visitor, const StateItems &of_cells) override;
   void list_memory(MemoryTable &table) const override
   {
     Hexahedra::list_memory(table);

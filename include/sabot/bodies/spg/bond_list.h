@@ -3,6 +3,7 @@
 
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/base/memory_table.h"
+#include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/spg/bond_rows.h"
 #include "sabot/kernels/vec.h"
@@ -163,12 +164,16 @@ public:
       are sums of the very numbers that are stored. */
   AlignedVector<float> weight, scaled_weight;
 
-  /** Rows, for checkpoints. After overwriting them, call reconnect(). */
-  std::vector<std::uint32_t> count;
-  /** Finds reverse[] and the exchange of ghosts' bonds again. Collective. */
-  void reconnect();
+  std::vector<std::uint32_t> count; // of bonds in each row
+  /** As arrays over bonds of a state have them; @p owned: the particles. */
+  StateRows rows(const StateItems &owned, const std::string &name) const
+  {
+    return {owned, name, row_start.data(), count.data()};
+  }
 
 private:
+  /** Finds reverse[] and the exchange of ghosts' bonds again. Collective. */
+  void reconnect();
   /** reverse[] of bonds between owned particles. Throws std::logic_error where
       the two ends do not agree. */
   void reverse_owned();

@@ -76,7 +76,7 @@ struct ParticleFields
 
   /** Owned and ghost entries, as kernels of ghosts are those of the last
       update. */
-  void visit_state(StateVisitor &visitor);
+  void visit_state(StateVisitor &visitor, const StateItems &items);
   void list_memory(MemoryTable &table) const
   {
     table.add("positions of the kernel update", kernel_reference_position);

@@ -70,9 +70,12 @@ public:
   /** After distribute(): normals of the host's surface. */
   void set_up();
 
+  void live_with(const std::vector<int> &owner) override
+  {
+    host_owner = &owner;
+  }
   void take(const NodalMatter &matter, const NodalState &host,
-            const std::vector<int> &owner, const unsigned int step,
-            ExactSum &lost) override;
+            const unsigned int step, ExactSum &lost) override;
   const std::vector<GlobalIndex> &host_nodes() const override { return hosts; }
   std::vector<std::size_t> failed_particles() const override;
   void set_free(const std::size_t i) override;
@@ -89,7 +92,8 @@ public:
       step must be measured anew; the same on all ranks. */
   bool has_grown_much();
 
-  /** Before anything else of the body: how many particles there are. */
+  /** Before anything else of the body: how many particles there are. Restored,
+      they are where the host's nodes are. */
   void visit_state(StateVisitor &visitor);
 
 private:
@@ -110,10 +114,10 @@ private:
   double largest_spacing = 0.; // along the skin, of all particles [m]
   unsigned int n_taken = 0;
   GlobalIndex n_measured = 0; // particles at the last has_grown_much()
+  const std::vector<int> *host_owner = nullptr;
   // While matter is taken
   const NodalMatter *matter = nullptr;
   const NodalState *host = nullptr;
-  const std::vector<int> *host_owner = nullptr;
   ExactSum *lost = nullptr;
 };
 } // namespace sabot

@@ -76,7 +76,7 @@ public:
   /** Stable steps of owned particles [s], before what the state adds. */
   const double *data() const { return step.data(); }
 
-  void visit_state(StateVisitor &visitor);
+  void visit_state(StateVisitor &visitor, const StateItems &items);
   void list_memory(MemoryTable &table) const
   {
     table.add("stable steps", step);

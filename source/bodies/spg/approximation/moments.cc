@@ -176,26 +176,28 @@ void ParticleApproximation::find_moments(BondList &bonds,
 }
 
 void ParticleApproximation::visit_bonds(StateVisitor &visitor,
-                                        const BondList &bonds)
+                                        const BondList &bonds,
+                                        const StateRows &rows)
 {
   if (!stores)
     return;
   shape_gradient.resize(bonds.n_with_ghosts());
-  visitor.visit("shape gradient", shape_gradient.data(), bonds.capacity(),
-                sizeof(shape_gradient[0]));
+  visitor.visit_rows("shape gradient", shape_gradient.data(), bonds.capacity(),
+                     rows);
   if (visitor.is_restoring())
     bonds.update_ghosts(shape_gradient.data());
 }
 
-void ParticleApproximation::visit_state(StateVisitor &visitor)
+void ParticleApproximation::visit_state(StateVisitor &visitor,
+                                        const StateItems &items)
 {
-  visitor.visit_array("moment inverse", moment_inverse);
-  visitor.visit_array("weak", lost_direction);
+  visitor.visit_items("moment inverse", moment_inverse, items);
+  visitor.visit_items("weak", lost_direction, items);
   if (grows)
   {
-    visitor.visit_array("intact eigenvalue", intact_eigenvalue);
-    visitor.visit_array("intact spread", intact_spread);
+    visitor.visit_items("intact eigenvalue", intact_eigenvalue, items);
+    visitor.visit_items("intact spread", intact_spread, items);
   }
-  visitor.visit_value("fallbacks", n_fallback);
+  visitor.visit_count("fallbacks", n_fallback);
 }
 } // namespace sabot

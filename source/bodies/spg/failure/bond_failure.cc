@@ -190,34 +190,39 @@ double BondFailure::failed_fraction(const BondList &bonds,
   return all > 0. ? n_failed[i] / all : 0.;
 }
 
-void BondFailure::visit_state(StateVisitor &visitor)
+void BondFailure::visit_failed_pairs(StateVisitor &visitor,
+                                     const StateItems &items)
 {
-  visitor.visit_array("failed bonds", n_failed);
+  const StateItems owned = {items.name, items.keys, items.n_saved,
+                            items.n_saved};
+  std::vector<std::uint32_t> counts;
+  for (const auto &of_particle : failed_pairs)
+    counts.push_back(of_particle.size());
+  visitor.visit_items("failed pair counts", counts, owned);
+  std::vector<std::size_t> starts = {0};
+  for (const std::uint32_t n : counts)
+    starts.push_back(starts.back() + n);
+  std::vector<GlobalIndex> pairs(starts.back());
+  for (std::size_t i = 0; i < counts.size() && !visitor.is_restoring(); ++i)
+    std::copy(failed_pairs[i].begin(), failed_pairs[i].end(),
+              pairs.begin() + starts[i]);
+  const StateRows rows = {owned, visitor.section + "/failed pairs",
+                          starts.data(), counts.data()};
+  visitor.visit_shape(rows);
+  visitor.visit_rows("failed pairs", pairs, rows);
+  for (std::size_t i = 0; i < counts.size() && visitor.is_restoring(); ++i)
+    failed_pairs[i].assign(pairs.begin() + starts[i],
+                           pairs.begin() + starts[i + 1]);
+}
+
+void BondFailure::visit_state(StateVisitor &visitor, const StateItems &items)
+{
+  visitor.visit_items("failed bonds", n_failed, items);
   if (remembers_pairs)
-  {
-    std::vector<std::uint32_t> counts;
-    std::vector<GlobalIndex> pairs;
-    for (const auto &of_particle : failed_pairs)
-    {
-      counts.push_back(of_particle.size());
-      pairs.insert(pairs.end(), of_particle.begin(), of_particle.end());
-    }
-    visitor.visit_array("failed pair counts", counts);
-    visitor.visit_resized("failed pairs", pairs);
-    if (visitor.is_restoring())
-    {
-      auto pair = pairs.begin();
-      for (std::size_t i = 0; i < counts.size(); ++i)
-      {
-        failed_pairs[i].assign(pair, pair + counts[i]);
-        pair += counts[i];
-      }
-    }
-  }
-  visitor.visit_array("failure loss", loss);
-  visitor.visit_array("has failed", is_failed);
-  visitor.visit_array("crumbled", crumbled);
-  if (!friction_work.empty())
-    visitor.visit_array("rubble friction", friction_work);
+    visit_failed_pairs(visitor, items);
+  visitor.visit_items("failure loss", loss, items);
+  visitor.visit_items("has failed", is_failed, items);
+  visitor.visit_items("crumbled", crumbled, items);
+  visitor.visit_items("rubble friction", friction_work, items);
 }
 } // namespace sabot

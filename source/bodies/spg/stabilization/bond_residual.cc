@@ -78,8 +78,9 @@ public:
                     std::vector<double> &sums) const override;
   void apply_linearized(const SpgParts &body, const AlignedVector<Vec> &motion,
                         AlignedVector<Vec> &force) override;
-  void visit_bonds(StateVisitor &visitor, const SpgParts &body) override;
-  void visit_state(StateVisitor &visitor) override;
+  void visit_bonds(StateVisitor &visitor, const SpgParts &body,
+                   const StateRows &rows) override;
+  void visit_state(StateVisitor &visitor, const StateItems &items) override;
   void list_memory(MemoryTable &table) const override
   {
     Stabilization::list_memory(table);
@@ -326,21 +327,22 @@ void BondResidual::add_row_sums(const SpgParts &body,
   }
 }
 
-void BondResidual::visit_bonds(StateVisitor &visitor, const SpgParts &body)
+void BondResidual::visit_bonds(StateVisitor &visitor, const SpgParts &body,
+                               const StateRows &rows)
 {
   residual.resize(body.bonds.n_with_ghosts());
-  visitor.visit("bond residual", residual.data(), body.bonds.capacity(),
-                sizeof(residual[0]));
+  visitor.visit_rows("bond residual", residual.data(), body.bonds.capacity(),
+                     rows);
   if (visitor.is_restoring())
     body.bonds.update_ghosts(residual.data());
 }
 
-void BondResidual::visit_state(StateVisitor &visitor)
+void BondResidual::visit_state(StateVisitor &visitor, const StateItems &items)
 {
-  Stabilization::visit_state(visitor);
-  visitor.visit_array("previous position", previous_position);
-  visitor.visit_array("bond stiffness", stiffness);
-  visitor.visit_array("residual factor", factor);
+  Stabilization::visit_state(visitor, items);
+  visitor.visit_items("previous position", previous_position, items);
+  visitor.visit_items("bond stiffness", stiffness, items);
+  visitor.visit_items("residual factor", factor, items);
 }
 
 void BondResidual::compute_forces(SpgParts &body, const double dt)

@@ -63,8 +63,9 @@ public:
                     std::vector<double> &sums) const override;
   void apply_linearized(const SpgParts &body, const AlignedVector<Vec> &motion,
                         AlignedVector<Vec> &force) override;
-  void visit_bonds(StateVisitor &visitor, const SpgParts &body) override;
-  void visit_state(StateVisitor &visitor) override;
+  void visit_bonds(StateVisitor &visitor, const SpgParts &body,
+                   const StateRows &rows) override;
+  void visit_state(StateVisitor &visitor, const StateItems &items) override;
   void list_memory(MemoryTable &table) const override
   {
     Stabilization::list_memory(table);
@@ -269,20 +270,21 @@ void SecondGradient::add_linearized(const SpgParts &body,
   gather(body, higher, force.data());
 }
 
-void SecondGradient::visit_bonds(StateVisitor &visitor, const SpgParts &body)
+void SecondGradient::visit_bonds(StateVisitor &visitor, const SpgParts &body,
+                                 const StateRows &rows)
 {
   bond_gradient.resize(body.bonds.n_with_ghosts());
-  visitor.visit("second gradient of bonds", bond_gradient.data(),
-                body.bonds.capacity(), sizeof(bond_gradient[0]));
+  visitor.visit_rows("second gradient of bonds", bond_gradient.data(),
+                     body.bonds.capacity(), rows);
   if (visitor.is_restoring())
     body.bonds.update_ghosts(bond_gradient.data());
 }
 
-void SecondGradient::visit_state(StateVisitor &visitor)
+void SecondGradient::visit_state(StateVisitor &visitor, const StateItems &items)
 {
-  Stabilization::visit_state(visitor);
-  visitor.visit_array("second gradient", higher_gradient);
-  visitor.visit_array("second gradient stress", stress);
+  Stabilization::visit_state(visitor, items);
+  visitor.visit_items("second gradient", higher_gradient, items, 3);
+  visitor.visit_items("second gradient stress", stress, items, 3);
 }
 
 void SecondGradient::compute_forces(SpgParts &body, const double dt)

@@ -11,8 +11,8 @@ void Stabilization::allocate(const SpgParts &body)
   done.assign(body.nodes.n_owned, 0.);
 }
 
-void Stabilization::visit_state(StateVisitor &visitor)
+void Stabilization::visit_state(StateVisitor &visitor, const StateItems &items)
 {
-  visitor.visit_array("stabilization work", done);
+  visitor.visit_items("stabilization work", done, items);
 }
 } // namespace sabot

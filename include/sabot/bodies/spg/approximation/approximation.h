@@ -77,8 +77,9 @@ public:
   std::size_t n_fallbacks() const { return n_fallback; }
 
   /** Stored gradients; those of ghosts' bonds are exchanged when restoring. */
-  void visit_bonds(StateVisitor &visitor, const BondList &bonds);
-  void visit_state(StateVisitor &visitor);
+  void visit_bonds(StateVisitor &visitor, const BondList &bonds,
+                   const StateRows &rows);
+  void visit_state(StateVisitor &visitor, const StateItems &items);
   void list_memory(MemoryTable &table) const
   {
     table.add("inverse moments", moment_inverse);

@@ -134,7 +134,7 @@ public:
       have none. */
   std::vector<double> friction_work;
 
-  void visit_state(StateVisitor &visitor);
+  void visit_state(StateVisitor &visitor, const StateItems &items);
   void list_memory(MemoryTable &table) const
   {
     table.add_rows("failure: failed pairs", failed_pairs);
@@ -149,6 +149,8 @@ public:
   }
 
 private:
+  void visit_failed_pairs(StateVisitor &visitor, const StateItems &items);
+
   const std::shared_ptr<const FailureCriterion> criterion;
   const double critical_stretch;
   const unsigned int interval; // steps between looks

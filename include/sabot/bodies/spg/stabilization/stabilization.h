@@ -102,8 +102,10 @@ public:
                                 AlignedVector<Vec> &force) = 0;
 
   /** What belongs to bonds; ghosts' bonds come anew. Collective. */
-  virtual void visit_bonds(StateVisitor &, const SpgParts &) {}
-  virtual void visit_state(StateVisitor &visitor);
+  virtual void visit_bonds(StateVisitor &, const SpgParts &, const StateRows &)
+  {
+  }
+  virtual void visit_state(StateVisitor &visitor, const StateItems &items);
   /** Arrays kept from step to step; forms that have some of their own call the
       base. Local. */
   virtual void list_memory(MemoryTable &table) const
