@@ -37,15 +37,26 @@ TEST(Principal, the_largest_eigenvalue_is_bounded_closely)
     // Positive semidefinite of rank 1, 2 or 3, of any size; also two or three
     // equal eigenvalues.
     const double size = std::pow(10., 12. * number(random));
-    Symmetric m{};
-    if (trial % 4 != 0)
-      for (int k = 0; k < trial % 4; ++k)
-        m.add_outer(size, vec(number(random), number(random), number(random)));
-    else
-      m = {size, size, trial % 8 == 0 ? size : 0.1 * size, 0., 0., 0.};
-    const double s[6] = {m.xx, m.yy, m.zz, m.xy, m.yz, m.xz},
-                 largest = largest_principal(s),
-                 bound = m.largest_eigenvalue_bound();
+    double s[6] = {};
+    for (int k = 0; k < trial % 4; ++k)
+    {
+      const Vec v = vec(number(random), number(random), number(random));
+      for (int c = 0; c < 3; ++c)
+      {
+        s[c] += size * v[c] * v[c];
+        s[3 + c] += size * v[c == 1 ? 1 : 0] * v[c == 0 ? 1 : 2];
+      }
+    }
+    if (trial % 4 == 0)
+      for (int c = 0; c < 3; ++c)
+        s[c] = c < 2 || trial % 8 == 0 ? size : 0.1 * size;
+    Pack four[6];
+    for (int c = 0; c < 6; ++c)
+      four[c] = Pack{1., 0., s[c], 2. * (c < 3)};
+    const Pack bounds = largest_eigenvalue_bound(four);
+    EXPECT_EQ(bounds[1], 0.);
+    EXPECT_NEAR(bounds[3], 2., 1e-12);
+    const double largest = largest_principal(s), bound = bounds[2];
     EXPECT_GE(bound, (1. - 1e-12) * largest);
     EXPECT_LE(bound, 1.03 * largest);
   }

@@ -84,6 +84,16 @@ inline Pack to_double(const HalfPack a)
 {
   return __builtin_convertvector(a, Pack);
 }
+/** Square root of each, correctly rounded, as pack_sqrt(). */
+inline HalfPack half_sqrt(const HalfPack a)
+{
+#ifdef __AVX__
+  return _mm_sqrt_ps(a);
+#else
+  return HalfPack{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]),
+                  std::sqrt(a[3])};
+#endif
+}
 
 /**
  * Cube root of 1e-36 < a < 1e36, to 3 ulp, and 0 of 0: y = a r^2 with r =

@@ -44,8 +44,51 @@ double stiffness_share(const SpgParts &body, const std::size_t i)
 
 namespace
 {
-/** Sums over the bonds of a particle of g (x) g/|g| (xx, yy, zz, xy, yz, xz),
-    |g| and g, one bond in each lane. */
+/** Symmetric matrices of particles, by entries (xx, yy, zz, xy, yz, xz). */
+class Matrices
+{
+public:
+  explicit Matrices(const std::size_t n)
+  {
+    for (AlignedVector<double> &e : entry)
+      e.resize((n + n_lanes - 1) / n_lanes * n_lanes);
+  }
+  void set(const std::size_t i, const Pack diagonal, const Pack mixed)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      entry[c][i] = diagonal[c];
+      entry[3 + c][i] = mixed[c];
+    }
+  }
+  /** Add @p factor v (x) v. */
+  void add_outer(const std::size_t i, const double factor, const Vec v)
+  {
+    for (int c = 0; c < 6; ++c)
+      entry[c][i] += factor * v[row[c]] * v[column[c]];
+  }
+  /** Bounds of the largest eigenvalues, into the first entry. */
+  const AlignedVector<double> &find_largest()
+  {
+    for (std::size_t i = 0; i < entry[0].size(); i += n_lanes)
+    {
+      Pack s[6];
+      for (int c = 0; c < 6; ++c)
+        s[c] = load_pack(&entry[c][i]);
+      store_pack(&entry[0][i], largest_eigenvalue_bound(s));
+    }
+    return entry[0];
+  }
+  static constexpr int row[6] = {0, 1, 2, 0, 1, 0},
+                       column[6] = {0, 1, 2, 1, 2, 2};
+
+private:
+  AlignedVector<double> entry[6];
+};
+
+/** Sums over the bonds of a particle of g (x) g/|g|, |g| and g, one bond in
+    each lane. Lengths are good to seven digits: any weights would do that are
+    the same from both ends. */
 struct GradientSums
 {
   Pack outer[6] = {}, length = {}, vector[3] = {};
@@ -53,10 +96,11 @@ struct GradientSums
   /** @p factor, @p share: of the two first. */
   void add(const Pack g[3], const Pack factor, const Pack share)
   {
-    const Pack least = in_all(1e-200),
-               square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2],
-               norm = pack_sqrt(square), part = factor / pack_max(norm, least);
-    constexpr int column[6] = {0, 1, 2, 1, 2, 2}, row[6] = {0, 1, 2, 0, 1, 0};
+    const HalfPack least = {1e-30f, 1e-30f, 1e-30f, 1e-30f};
+    HalfPack norm =
+        half_sqrt(to_float(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+    norm = norm > least ? norm : least;
+    const Pack part = factor * to_double(1.f / norm);
     Pack scaled[3];
     for (int d = 0; d < 3; ++d)
     {
@@ -64,17 +108,14 @@ struct GradientSums
       vector[d] += g[d];
     }
     for (int c = 0; c < 6; ++c)
-      outer[c] += scaled[row[c]] * g[column[c]];
-    length += share * norm;
+      outer[c] += scaled[Matrices::row[c]] * g[Matrices::column[c]];
+    length += share * to_double(norm);
   }
-  /** The first sum, and of its diagonal @p more. */
-  Symmetric matrix() const
+  void keep_matrix(const std::size_t i, Matrices &matrices) const
   {
-    const Pack zero = {},
-               diagonal = sum_lanes(outer[0], outer[1], outer[2], zero),
-               mixed = sum_lanes(outer[3], outer[4], outer[5], zero);
-    return {diagonal[0], diagonal[1], diagonal[2],
-            mixed[0],    mixed[1],    mixed[2]};
+    const Pack zero = {};
+    matrices.set(i, sum_lanes(outer[0], outer[1], outer[2], zero),
+                 sum_lanes(outer[3], outer[4], outer[5], zero));
   }
 };
 
@@ -143,6 +184,7 @@ Elements find_elements(const SpgParts &body)
   elements.own.resize(n);
   elements.bulk.resize(body.nodes.size());
   elements.shear.resize(body.nodes.size());
+  Matrices G(n);
   for (std::size_t i = 0; i < n; ++i)
   {
     GradientSums sums;
@@ -158,15 +200,18 @@ Elements find_elements(const SpgParts &body)
     // The gradients of all add up to nothing.
     const Vec own = vec(-last[0], -last[1], -last[2]);
     const double of_own = norm(own), s = last[3] + of_own;
-    Symmetric G = sums.matrix();
+    sums.keep_matrix(i, G);
     if (of_own > 0.)
-      G.add_outer(1. / of_own, own);
+      G.add_outer(i, 1. / of_own, own);
     const double V =
         body.fields.kernel_reference_volume[i] * stiffness_share(body, i);
     elements.own[i] = own;
     elements.bulk[i] = V * lambda * s;
-    elements.shear[i] = 2. * V * mu * G.largest_eigenvalue_bound();
+    elements.shear[i] = 2. * V * mu;
   }
+  const AlignedVector<double> &l = G.find_largest();
+  for (std::size_t i = 0; i < n; ++i)
+    elements.shear[i] *= l[i];
   body.exchange.update(elements.bulk.data());
   body.exchange.update(elements.shear.data());
   if (!body.approximation.stores_gradients())
@@ -185,6 +230,7 @@ std::vector<double> elastic_row_bounds(const SpgParts &body)
   const BondList &bonds = body.bonds;
   const Elements elements = find_elements(body);
   std::vector<double> rows(n);
+  Matrices R(n);
   for (std::size_t i = 0; i < n; ++i)
   {
     GradientSums sums;
@@ -200,15 +246,17 @@ std::vector<double> elastic_row_bounds(const SpgParts &body)
                Pack{elements.shear[j[0]], elements.shear[j[1]],
                     elements.shear[j[2]], elements.shear[j[3]]});
     }
-    Symmetric R = sums.matrix();
+    sums.keep_matrix(i, R);
     const Vec own = elements.own[i];
     const double of_own = norm(own);
     if (of_own > 0.)
-      R.add_outer(elements.bulk[i] / of_own, own);
+      R.add_outer(i, elements.bulk[i] / of_own, own);
     const Pack zero = {}, all = sum_lanes(sums.length, zero, zero, zero);
-    rows[i] =
-        R.largest_eigenvalue_bound() + all[0] + elements.shear[i] * of_own;
+    rows[i] = all[0] + elements.shear[i] * of_own;
   }
+  const AlignedVector<double> &largest = R.find_largest();
+  for (std::size_t i = 0; i < n; ++i)
+    rows[i] += largest[i];
   return rows;
 }
 } // namespace sabot
