@@ -71,7 +71,13 @@ bool SelfFindingZone::convert(const std::vector<std::size_t> &cells,
   NodalState &nodes = host.nodes(), &particles = zone.nodes();
   // Nodes have their particles' forces: back to those of cells and couplings.
   take_back();
-  const NodalMatter matter = source.give(cells);
+  std::vector<NodalMatter::Entry> beside;
+  for (const Shared &pair : shared)
+  {
+    beside.push_back(sink.content(pair.particle));
+    beside.back().node = pair.node;
+  }
+  const NodalMatter matter = source.give(cells, beside);
   for (const NodalMatter::Entry &entry : matter.entries)
   {
     hourglass.add(entry.hourglass_energy);

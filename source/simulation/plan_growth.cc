@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace sabot
 {
@@ -64,8 +65,8 @@ public:
                const std::vector<ConversionForecast> &forecasts,
                const Stepper &stepper, const double couplings, const double now)
       : stepper(stepper), forecasts(forecasts), impact(physics.impact),
-        couplings(couplings), now(now), own(stepper.propose(false).body_steps),
-        most(scene.bodies.size(), 0.)
+        couplings(at_contact(forecasts, couplings, now)), now(now),
+        own(stepper.propose(false).body_steps), most(scene.bodies.size(), 0.)
   {
     if (!impact.exists)
       return;
@@ -95,6 +96,19 @@ public:
   }
 
 private:
+  /** What couplings ask for once the bodies have met: closing in allows half of
+      the time until then on top (ClosingLimit). */
+  static double at_contact(const std::vector<ConversionForecast> &forecasts,
+                           const double couplings, const double now)
+  {
+    double first = std::numeric_limits<double>::max();
+    for (const ConversionForecast &forecast : forecasts)
+      if (forecast.exists())
+        first = std::min(first, forecast.first_time());
+    const double then = couplings - 0.5 * (first - now);
+    return first > now && then > 0. ? then : couplings;
+  }
+
   const Stepper &stepper;
   const std::vector<ConversionForecast> &forecasts;
   const ImpactFacts &impact;

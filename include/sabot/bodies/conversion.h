@@ -92,8 +92,12 @@ public:
       const = 0;
   /** Take these cells out, with their forces on the nodes, their faces and
       their part of the nodes' masses. Inertia is left as it is: it moves only
-      where a node is bare, which is up to the caller. Local. */
-  virtual NodalMatter give(const std::vector<std::size_t> &cells) = 0;
+      where a node is bare, which is up to the caller. @p particles: that share
+      nodes with cells, of which node, volumes and stress are asked.
+      Collective. */
+  virtual NodalMatter
+  give(const std::vector<std::size_t> &cells,
+       const std::vector<NodalMatter::Entry> &particles) = 0;
 };
 
 /**
@@ -119,6 +123,8 @@ public:
   virtual const std::vector<GlobalIndex> &host_nodes() const = 0;
   /** Local numbers of owned particles beside broken bonds. */
   virtual std::vector<std::size_t> failed_particles() const = 0;
+  /** Volumes and stress of an owned particle now. */
+  virtual NodalMatter::Entry content(const std::size_t i) const = 0;
   /** The particle moves by its own forces from now on: its host's node has no
       cells any more. @p i: owned. */
   virtual void set_free(const std::size_t i) = 0;

@@ -45,9 +45,9 @@ const Registry<ConversionCriterion>::Add registered(
      "of failure.",
      [](Parameters &prm)
      {
-       prm.declare_knob(entry, "0.1", quantity(Dimension::none, 0., 1e3),
+       prm.declare_knob(entry, "0.02", quantity(Dimension::none, 0., 1e3),
                         "Effective plastic strain at which a cell turns into "
-                        "particles.");
+                        "particles; well before flow localizes.");
      },
      [](const Parameters &prm, const std::string &) {
        return std::make_shared<const PlasticStrain>(get_quantity(prm, entry));

@@ -3,6 +3,7 @@
 
 #include "sabot/bodies/body_report.h"
 #include "sabot/bodies/fem/cell_conditions.h"
+#include "sabot/bodies/fem/corner_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +96,9 @@ void FemConversion::share_of(const std::size_t e, NodalMatter::Entry &share,
   cells.mean_states(e, states);
 }
 
-NodalMatter FemConversion::give(const std::vector<std::size_t> &leaving)
+NodalMatter
+FemConversion::give(const std::vector<std::size_t> &leaving,
+                    const std::vector<NodalMatter::Entry> &particles)
 {
   const Hexahedra &cells = body.cells;
   NodalMatter matter;
@@ -112,6 +115,8 @@ NodalMatter FemConversion::give(const std::vector<std::size_t> &leaving)
   for (std::size_t k = 0; k < involved.size(); ++k)
     matter.entries[k].node = involved[k];
 
+  const CornerFields fields(cells, body.nodes, body.exchange, leaving,
+                            particles);
   const bool holds_modes = cells.holds_hourglass_energy();
   std::vector<double> states(matter.n_rows);
   for (const std::size_t e : leaving) // in the order of cells, on every rank
@@ -121,14 +126,17 @@ NodalMatter FemConversion::give(const std::vector<std::size_t> &leaving)
     const double modes = share.hourglass_energy;
     if (!holds_modes)
       share.hourglass_energy = 0.;
-    for (const std::uint32_t a : cells.connectivity[e])
+    for (int corner = 0; corner < 8; ++corner)
     {
+      const std::uint32_t a = cells.connectivity[e][corner];
       if (a >= body.nodes.n_owned)
         continue;
       const std::size_t k =
           std::lower_bound(involved.begin(), involved.end(), a) -
           involved.begin();
-      matter.add(k, share, states.data());
+      NodalMatter::Entry there = share;
+      fields.move_to(e, corner, there);
+      matter.add(k, there, states.data());
       if (!holds_modes)
         dissipated_modes.add(modes);
       body.nodes.lumped_mass[a] -= share.mass;
@@ -138,6 +146,13 @@ NodalMatter FemConversion::give(const std::vector<std::size_t> &leaving)
   for (NodalMatter::Entry &entry : matter.entries)
     entry.is_bare = body.living().bare_nodes()[entry.node];
   matter.finish();
+  for (NodalMatter::Entry &entry : matter.entries)
+  {
+    fields.bound(entry);
+    entry.gradient = std::cbrt(entry.volume / entry.reference_volume /
+                               determinant(entry.gradient)) *
+                     entry.gradient;
+  }
   // Round-off of the differences: a node without cells and without eroded mass
   // has none, and its particle has all.
   constexpr double round_off = 1e-9;

@@ -35,6 +35,17 @@ std::vector<std::size_t> ParticleIntake::failed_particles() const
   return found;
 }
 
+NodalMatter::Entry ParticleIntake::content(const std::size_t i) const
+{
+  NodalMatter::Entry now;
+  now.reference_volume = body.fields.reference_volume[i];
+  now.volume = body.fields.kernel_reference_volume[i] *
+               determinant(body.fields.incremental_deformation_gradient[i]);
+  for (std::size_t c = 0; c < n_symmetric; ++c)
+    now.stress[c] = body.points.stress_row(c)[i];
+  return now;
+}
+
 void ParticleIntake::set_free(const std::size_t i)
 {
   body.nodes.inertia[i] = body.nodes.lumped_mass[i];

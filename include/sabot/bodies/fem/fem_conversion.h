@@ -53,7 +53,8 @@ public:
   std::vector<std::size_t>
   cells_in(const std::function<bool(const std::array<double, 3> &)> &is_inside)
       const override;
-  NodalMatter give(const std::vector<std::size_t> &cells) override;
+  NodalMatter give(const std::vector<std::size_t> &cells,
+                   const std::vector<NodalMatter::Entry> &particles) override;
 
   /** Hourglass energy of cells that have gone where it is heat already, as of
       viscous control: it stays in the ledger [J]. Local. */

@@ -78,6 +78,7 @@ public:
             const unsigned int step, ExactSum &lost) override;
   const std::vector<GlobalIndex> &host_nodes() const override { return hosts; }
   std::vector<std::size_t> failed_particles() const override;
+  NodalMatter::Entry content(const std::size_t i) const override;
   void set_free(const std::size_t i) override;
 
   /** Whether matter waits for the kernel update that is under way. */
