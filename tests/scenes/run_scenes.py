@@ -468,6 +468,39 @@ class Scenes(unittest.TestCase):
                                delta=1e-9 * pull["impulse"][0])
         self.assertGreater(pull["force"][0], 0.8 * 300e6 * 25e-6)
         self.resumes_as(histories[0], "growing-parted", 0.5 * r["steps"], scene)
+        # Nor do cells at a tie turn, not even where the zone starts.
+        tied = os.path.join(WORK, "growing-tied.prm")
+        with open(tied, "w") as file:
+            file.write("include %s\n" % scene + """
+                set List of bodies = block, zone, plug
+                set List of couplings = glue
+                subsection Bodies
+                  subsection plug
+                    set Material = metal
+                    set Size = 3 mm, 5 mm, 5 mm
+                    set Center = -5.5 mm, 0 mm, 0 mm
+                    set Cell size = 1 mm
+                    set Initial velocity = 10 m/s, 0 m/s, 30 m/s
+                  end
+                end
+                subsection Couplings
+                  subsection glue
+                    set Type = tie
+                    set Follower = plug
+                    set Leader = block
+                  end
+                end
+                """)
+        out = folder("growing-tied")
+        done = sabot("run", tied, "-o", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        r = result(out)
+        found = r["found_zones"]["zone"]
+        self.assertAlmostEqual(found["center"][0] - 0.5 * found["size"][0],
+                               -3e-3, delta=1e-12)
+        self.assertLess(r["momentum_residual_max"], 1e-9)
+        for body in r["bodies"].values():
+            self.assertAlmostEqual(body["velocity"][2], 14., delta=1e-6)
 
     def test_a_rod_enters_armor_on_1_and_2_ranks(self):
         scene = os.path.join(SOURCE, "prm/penetration/coarse.prm")
