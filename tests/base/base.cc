@@ -88,6 +88,38 @@ TEST(ExactSum, keeps_invalid_terms_visible)
   EXPECT_TRUE(std::isnan(large.value()));
 }
 
+TEST(ExactSum, holds_bodies_of_micrometers_and_of_a_kilometer)
+{
+  // Small ones that add up, large ones that cancel, in any order.
+  std::vector<double> values = {1e-24, 3e-30,  -5e-27, 2e4,  7e4,
+                                -9e13, 1.5e14, 3e17,   9e17, -4e16};
+  const auto sum_of = [](const std::vector<double> &values)
+  {
+    ExactSum sum;
+    for (const double v : values)
+      sum.add(v);
+    return sum;
+  };
+  EXPECT_NEAR(sum_of({1e-24, 3e-30, -5e-27}).value(), 0.995003e-24, 1e-33);
+  EXPECT_DOUBLE_EQ(sum_of(std::vector<double>(1000, 7e15)).value(), 7e18);
+  EXPECT_DOUBLE_EQ(sum_of(std::vector<double>(1000, -7e15)).value(), -7e18);
+  EXPECT_DOUBLE_EQ(sum_of(std::vector<double>(100, 2e4)).value(), 2e6);
+  EXPECT_DOUBLE_EQ(sum_of({-65536.}).value(), -65536.);
+  EXPECT_DOUBLE_EQ(sum_of({-16384., 16384.25}).value(), 0.25);
+  const ExactSum forward = sum_of(values);
+  for (const double v : std::vector<double>(values))
+    values.push_back(-v);
+  std::shuffle(values.begin(), values.end(), std::mt19937(3));
+  EXPECT_EQ(sum_of(values).value(), 0.);
+  ExactSum none = forward;
+  none.subtract(forward);
+  EXPECT_EQ(none.value(), 0.);
+  none.subtract(forward);
+  EXPECT_EQ(none.value(), -forward.value());
+  none.add(forward);
+  EXPECT_EQ(none.value(), 0.);
+}
+
 TEST(Quantity, units_dimensions_and_ranges)
 {
   const Pattern length = quantity(Dimension::length, 1e-6, 1.);

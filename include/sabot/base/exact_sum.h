@@ -14,12 +14,12 @@ __extension__ typedef __int128 Int128;
 
 /**
  * A sum that does not depend on the order of its terms, hence not on the
- * number of ranks: fixed point in a 128-bit integer with unit 2^-80 and range
- * +-1.4e14 (SI units). Each term is cut once, to 8e-25; what is added after
- * that is exact, other than with the compensated sums of Kahan or Neumaier,
- * which still depend on the order.
+ * number of ranks: fixed point in 192 bits with unit 2^-112, for SI units from
+ * a body of micrometers to one of a kilometer. Each term is cut once, to 2e-34;
+ * what is added after that is exact, other than with the compensated sums of
+ * Kahan or Neumaier, which still depend on the order.
  *
- * A term that is not finite, or of 7e13 and more, makes the sum not-a-number:
+ * A term that is not finite, or of 1e18 and more, makes the sum not-a-number:
  * trouble stays visible, and is counted rather than added, so that it does not
  * depend on the order either.
  *
@@ -31,14 +31,15 @@ __extension__ typedef __int128 Int128;
 class ExactSum
 {
 public:
-  /** Add a term, cut towards zero to a multiple of 2^-80. Inline: rows of the
+  /** Add a term, cut towards zero to a multiple of 2^-112. Inline: rows of the
       histories add a few hundred thousand. */
   void add(const double value)
   {
-    constexpr double largest_term = 7e13; // half of the range of the sum
-    if (!(std::abs(value) < largest_term))
+    // So that the term fits into the low word.
+    constexpr double large = 1 << (126 - unit_exponent);
+    if (!(std::abs(value) < large))
     {
-      ++n_invalid;
+      add_large(value);
       return;
     }
     std::uint64_t bits;
@@ -54,7 +55,7 @@ public:
                                  : static_cast<Int128>(mantissa >> -shift);
     // 0 or -1: signs change at random, a branch would be mispredicted.
     const Int128 sign = static_cast<std::int64_t>(bits) >> 63;
-    sum += (magnitude ^ sign) - sign;
+    add((magnitude ^ sign) - sign, 0);
   }
   /** Add another sum, without any error. */
   void add(const ExactSum &other);
@@ -68,9 +69,19 @@ public:
   static void reduce(std::vector<ExactSum *> sums, MPI_Comm communicator);
 
 private:
-  static constexpr int unit_exponent = 80;
-  Int128 sum = 0;     // in units of 2^-80
-  long n_invalid = 0; // terms that were not added
+  static constexpr int unit_exponent = 112;
+  /** Add a term that the low word may not hold, or an invalid one. */
+  void add_large(const double value);
+  void add(const Int128 low, const std::int64_t high)
+  {
+    if (__builtin_add_overflow(sum, low, &sum))
+      overflow += low < 0 ? -1 : 1;
+    overflow += high;
+  }
+
+  Int128 sum = 0;             // in units of 2^-112
+  std::int64_t overflow = 0;  // in units of 2^16, as often as the sum wrapped
+  std::int64_t n_invalid = 0; // terms that were not added
 };
 } // namespace sabot
 
