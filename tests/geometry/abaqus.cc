@@ -45,6 +45,58 @@ TEST(Abaqus, parts_and_instances_have_their_places)
                   "line 1: there is no part \"B\""));
 }
 
+TEST(Abaqus, independent_instances_have_meshes_of_their_own)
+{
+  const std::string mesh = Block().abaqus();
+  const NamedMesh made = read_text(
+      "independent.inp",
+      "*Part, name=P\n*End Part\n*Assembly, name=A\n"
+      "*Instance, name=P-1, part=P\n" +
+          mesh + "*End Instance\n*Instance, name=P-2, part=P\n5., 0., 0.\n" +
+          mesh +
+          "*Nset, nset=low, generate\n1, 9, 1\n*End Instance\n"
+          "*Nset, nset=far, instance=P-2\nlow\n*End Assembly\n");
+  EXPECT_EQ(made.mesh.cells.size(), 16u);
+  EXPECT_NEAR(range_of(made, 0).second, 7., 1e-12);
+  EXPECT_EQ(find_face_ids("", "far", made).size(), 1u);
+}
+
+TEST(Abaqus, data_may_stand_in_included_files_and_in_any_order)
+{
+  const std::size_t at = deck.find("*Element");
+  const std::string nodes = deck.substr(0, at), elements = deck.substr(at);
+  // Numbers alone, the keyword above the include and data behind it.
+  const std::size_t line = nodes.find('\n') + 1,
+                    last = nodes.rfind('\n', nodes.size() - 2) + 1;
+  write_file("numbers.inc", nodes.substr(line, last - line));
+  EXPECT_EQ(read_text("included.inp", "*Node, nset=all\n*Include, "
+                                      "input=numbers.inc\n" +
+                                          nodes.substr(last) + elements)
+                .mesh.cells.size(),
+            8u);
+  EXPECT_TRUE(has(refusal("words.inp", "*Part, name=P\n*Include, "
+                                       "input=numbers.inc\n"),
+                  "numbers.inc\", line 1: text stands before"));
+  // Elements first.
+  EXPECT_EQ(read_text("order.inp", elements + nodes).mesh.cells.size(), 8u);
+  // A comma too many takes no line of numbers.
+  std::string comma = deck;
+  comma.replace(comma.find("type=C3D8R"), 10, "type=C3D8R,");
+  EXPECT_EQ(read_text("comma.inp", comma).mesh.cells.size(), 8u);
+  comma.replace(comma.find("type=C3D8R,"), 11, "type=C3D8R,\n** and\nelset=E");
+  EXPECT_EQ(read_text("comma.inp", comma).mesh.cells.size(), 8u);
+  // Names in any case.
+  MeshWish wish;
+  wish.part = "IRON";
+  EXPECT_EQ(read_text("case.inp",
+                      deck + "*Elset, elset=E\n1, 2\n"
+                             "*Solid Section, elset=E, material=iron\n",
+                      wish)
+                .mesh.cells.size(),
+            2u);
+  EXPECT_TRUE(has(refusal("wide.inp", "\xff\xfe*" + deck), "UTF-16"));
+}
+
 TEST(Abaqus, faces_go_by_surfaces_and_node_sets)
 {
   const NamedMesh made = read_text(

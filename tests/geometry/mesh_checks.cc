@@ -46,6 +46,35 @@ TEST(MeshChecks, hinges_are_told)
   EXPECT_TRUE(has(made.warnings[0], "2 pieces of cells that share faces"));
 }
 
+TEST(MeshChecks, pieces_that_lie_in_each_other_are_refused)
+{
+  // A second block beside the first, shifted along x.
+  const auto two = [](const double shift, const double size = 1.)
+  {
+    Block block;
+    const Block other(size);
+    for (const auto &x : other.nodes)
+      block.nodes.push_back({{x[0] + shift, x[1], x[2]}});
+    for (auto cell : other.cells)
+    {
+      for (int &node : cell)
+        node += 27;
+      block.cells.push_back(cell);
+    }
+    return block.abaqus();
+  };
+  for (const double shift : {0.5, 0.3, -0.7, 1.4, 1.7, -1.5})
+    EXPECT_TRUE(has(refusal("overlap.inp", two(shift)), "of another piece"))
+        << shift;
+  for (const double size : {0.1, 0.3, 5.})
+    EXPECT_TRUE(has(refusal("overlap.inp", two(0.1, size)), "of another piece"))
+        << size;
+  // Beside each other, and as little into each other as faceted rounds do.
+  for (const double shift : {2., 2.1, -2., 1.999, 1.95})
+    EXPECT_EQ(read_text("beside.inp", two(shift)).mesh.cells.size(), 16u)
+        << shift;
+}
+
 TEST(MeshChecks, cells_that_stand_twice_or_overlap_are_refused)
 {
   Block block;

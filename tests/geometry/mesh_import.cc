@@ -37,6 +37,27 @@ TEST(MeshImport, gmsh_in_all_its_formats)
     }
 }
 
+TEST(MeshImport, gmsh_cut_for_parallel_programs_keeps_its_names)
+{
+  // Elements name the pieces, which belong to the groups.
+  std::string text = GmshText(4.1, false).str();
+  const auto replace = [&](const std::string &part, const std::string &other)
+  {
+    const std::size_t at = text.find(part, text.find("$Elements"));
+    ASSERT_NE(at, std::string::npos) << part;
+    text.replace(at, part.size(), other);
+  };
+  replace("2 5 3 4", "2 15 3 4");
+  replace("3 1 5 8", "3 9 5 8");
+  text.insert(text.find("$Nodes"),
+              "$PartitionedEntities\n2\n1\n77 2\n0 0 1 1\n"
+              "15 2 5 2 1 2 0 0 0 0 0 0 1 -11 1 4\n"
+              "9 3 1 1 1 0 0 0 0 0 0 1 1 0\n$EndPartitionedEntities\n");
+  const NamedMesh made = read_text("cut.msh", text);
+  EXPECT_NEAR(area_of(made, "struck face")[2], -4., 1e-12);
+  EXPECT_TRUE(has(made.notes.back(), "parts: plate (1)")) << made.notes.back();
+}
+
 TEST(MeshImport, a_name_of_gmsh_in_latin_1_is_told_by_line)
 {
   std::string text = GmshText(2.2, false).str();

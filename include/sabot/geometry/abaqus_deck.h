@@ -65,6 +65,9 @@ private:
       first of the file. */
   void check_encoding(const MeshFile &file, const std::string_view line,
                       const std::size_t number, const bool is_passed_over);
+  /** A block of the same keyword and options for lines of another file: an
+      included one may hold data alone. */
+  void go_on(const std::size_t file_number, const std::size_t number);
   /** Adds the keyword that the line begins; @p at is moved behind lines that
       continue it. */
   void add_keyword(std::string line, std::string_view text, std::size_t &at,

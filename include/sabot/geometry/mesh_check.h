@@ -4,6 +4,8 @@
 #include "sabot/geometry/file_mesh.h"
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace sabot
 {
@@ -26,14 +28,23 @@ void keep_part(FileMesh &mesh, const MeshFile &file, const MeshWish &wish);
 /** Makes one of vertices that are nearer than @p distance (file's unit). */
 void join_vertices(FileMesh &mesh, const double distance);
 
+/** A cell and one of another piece in which a part of it lies, if there are
+    such: by its middle and points towards its corners, deeper than a tenth of
+    an edge, as round surfaces of flat faces that touch go into each other
+    less. @p piece:
+    the number of each cell's. */
+std::optional<std::pair<FileIndex, FileIndex>>
+overlapping_cells(const FileMesh &mesh, const std::vector<std::size_t> &piece);
+
 /**
  * Looks for what no mesh of hexahedra has, and turns cells that are listed
  * inside out. Throws InputError, with the names of the cells, for cells with
- * a corner twice, for equal ones, for faces with more than two cells or with
- * both on one side, and for cells that are inverted: whose Jacobian is not
- * positive at a point of integration or in the middle. Warnings for pieces that
- * share no node, coincident nodes, corners that are bad, and free faces that
- * lie on no cell. Notes: sizes and names. @p wish: for lengths with unit.
+ * a corner twice, for equal ones, for pieces that overlap, for faces with more
+ * than two cells or with both on one side, and for cells that are inverted:
+ * whose Jacobian is not positive at a point of integration or in the middle.
+ * Warnings for pieces that share no node, coincident nodes, corners that are
+ * bad, and free faces that lie on no cell. Notes: sizes and names. @p wish: for
+ * lengths with unit.
  */
 void check_mesh(FileMesh &mesh, const MeshFile &file, const MeshWish &wish);
 } // namespace sabot

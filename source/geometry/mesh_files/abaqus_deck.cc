@@ -33,6 +33,15 @@ bool is_comment(const std::string_view line)
   return line.substr(0, 2) == "**";
 }
 
+/** Whether a file that is included behind it may begin with more of its
+    lines. */
+bool takes_data(const AbaqusBlock &block)
+{
+  const std::string &word = block.keyword;
+  return word == "NODE" || word == "ELEMENT" || word == "NSET" ||
+         word == "ELSET" || word == "SURFACE";
+}
+
 /** "*Solid Section" as "SOLIDSECTION". */
 std::string without_blanks(const std::string &text)
 {
@@ -85,8 +94,11 @@ void AbaqusDeck::read(const MeshFile &file, const int depth)
       continue;
     if (line[0] != '*')
     {
-      if (blocks.size() == first_block)
+      if (blocks.empty() ||
+          (blocks.size() == first_block && !takes_data(blocks.back())))
         file.refuse("text stands before the first keyword (as *Node)", number);
+      if (blocks.back().file != file_number)
+        go_on(file_number, number);
       blocks.back().lines.push_back(line);
       blocks.back().numbers.push_back(number);
       continue;
@@ -95,6 +107,7 @@ void AbaqusDeck::read(const MeshFile &file, const int depth)
     if (blocks.back().keyword != "INCLUDE")
       continue;
     const AbaqusBlock include = blocks.back();
+    blocks.pop_back();
     if (depth == 8 || files.size() > 1000)
       refuse("files include each other too deeply", include);
     std::string name = include.option("INPUT");
@@ -129,6 +142,17 @@ void AbaqusDeck::check_encoding(const MeshFile &file,
                   "headings");
 }
 
+void AbaqusDeck::go_on(const std::size_t file_number, const std::size_t number)
+{
+  AbaqusBlock more;
+  more.shown = blocks.back().shown;
+  more.keyword = blocks.back().keyword;
+  more.options = blocks.back().options;
+  more.file = file_number;
+  more.line = number;
+  blocks.push_back(std::move(more));
+}
+
 void AbaqusDeck::add_keyword(std::string line, const std::string_view text,
                              std::size_t &at, std::size_t &number,
                              const std::size_t file_number)
@@ -138,7 +162,15 @@ void AbaqusDeck::add_keyword(std::string line, const std::string_view text,
   block.line = number;
   while (!line.empty() && line.back() == ',' && at < text.size())
   {
-    const std::string_view more = next_line(text, at);
+    std::size_t after = at;
+    const std::string_view more = next_line(text, after);
+    // A comma too many: what follows are numbers or the next keyword.
+    const bool is_option =
+        is_comment(more) ||
+        (!more.empty() && std::isalpha(static_cast<unsigned char>(more[0])));
+    if (!is_option)
+      break;
+    at = after;
     ++number;
     check_encoding(files[file_number], more, number, is_comment(more));
     if (!is_comment(more))

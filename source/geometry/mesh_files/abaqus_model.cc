@@ -107,9 +107,23 @@ AbaqusModel::AbaqusModel(const AbaqusDeck &deck) : deck(deck)
 void AbaqusModel::read_blocks()
 {
   AbaqusPart *part = &parts.front();
+  bool is_in_instance = false;
+  // Elements wait until all nodes of their part are there.
+  std::vector<const AbaqusBlock *> elements;
+  const auto leave_part = [&]()
+  {
+    for (const AbaqusBlock *const block : elements)
+      read_elements(*block, *part);
+    elements.clear();
+    part = &parts.front();
+    is_in_instance = false;
+  };
   for (const AbaqusBlock &block : deck.blocks)
   {
     const std::string &word = block.keyword;
+    if (word == "PART" || word == "INSTANCE" || word == "ENDPART" ||
+        word == "ENDINSTANCE" || word == "ASSEMBLY")
+      leave_part();
     if (word == "PART")
     {
       for (const AbaqusPart &other : parts)
@@ -123,12 +137,24 @@ void AbaqusModel::read_blocks()
     {
       begin_instance(block);
       part = instances.back().part;
+      is_in_instance = true;
     }
-    else if (word == "ENDPART" || word == "ENDINSTANCE" || word == "ASSEMBLY")
-      part = &parts.front();
     else
-      read_block(block, *part);
+    {
+      // Independent instances have meshes of their own.
+      if (is_in_instance && (word == "NODE" || word == "ELEMENT"))
+      {
+        parts.push_back(*part);
+        part = instances.back().part = &parts.back();
+        is_in_instance = false;
+      }
+      if (word == "ELEMENT")
+        elements.push_back(&block);
+      else
+        read_block(block, *part);
+    }
   }
+  leave_part();
 }
 
 void AbaqusModel::read_block(const AbaqusBlock &block, AbaqusPart &part)
@@ -142,8 +168,6 @@ void AbaqusModel::read_block(const AbaqusBlock &block, AbaqusPart &part)
                 block);
   if (word == "NODE")
     read_nodes(block, part);
-  else if (word == "ELEMENT")
-    read_elements(block, part);
   else if (is_nset || is_elset)
   {
     const std::string name = block.option(word);
@@ -253,7 +277,7 @@ void AbaqusModel::begin_instance(const AbaqusBlock &block)
     deck.refuse("an instance needs a name of its own", block);
   const std::string name = upper_case(block.option("PART"));
   for (AbaqusPart &part : parts)
-    if (!name.empty() && part.name == name)
+    if (instance.part == nullptr && !name.empty() && part.name == name)
       instance.part = &part;
   if (instance.part == nullptr)
     deck.refuse("there is no part \"" + block.option("PART") +

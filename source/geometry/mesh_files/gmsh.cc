@@ -58,6 +58,8 @@ public:
         read_names();
       else if (section == "$Entities")
         read_entities();
+      else if (section == "$PartitionedEntities" && version > 4.05)
+        read_partitioned_entities();
       else if (section == "$Nodes")
       {
         version < 4. ? read_nodes() : read_node_blocks();
@@ -159,6 +161,40 @@ private:
           real();
         for (std::size_t g = count(1); g > 0; --g)
           groups_of[entity].push_back(std::abs(small())); // turned: negative
+        if (dimension > 0)
+          for (std::size_t b = count(1); b > 0; --b)
+            small();
+      }
+  }
+
+  /** The pieces into which gmsh cut them for parallel programs: elements name
+      these instead. As 4.1 has it; other formats number elements by the
+      whole. */
+  void read_partitioned_entities()
+  {
+    large(); // how many parts
+    for (std::size_t ghost = count(2); ghost > 0; --ghost)
+    {
+      small();
+      small();
+    }
+    std::array<std::size_t, 4> n;
+    for (std::size_t &each : n)
+      each = count(4);
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (std::size_t i = 0; i < n[dimension]; ++i)
+      {
+        const Key entity(dimension, small());
+        small(); // dimension and number of the whole
+        small();
+        for (std::size_t part = count(1); part > 0; --part)
+          small();
+        for (int b = 0; b < (dimension == 0 ? 3 : 6); ++b)
+          real();
+        std::vector<std::int64_t> &groups = groups_of[entity];
+        groups.clear();
+        for (std::size_t g = count(1); g > 0; --g)
+          groups.push_back(std::abs(small()));
         if (dimension > 0)
           for (std::size_t b = count(1); b > 0; --b)
             small();

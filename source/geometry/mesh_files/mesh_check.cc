@@ -277,9 +277,26 @@ private:
     return count_roots();
   }
 
+  /** Pieces, of which the forest is there, that lie in each other. */
+  void refuse_overlap()
+  {
+    std::vector<std::size_t> piece;
+    for (const auto &nodes : mesh.cells)
+      piece.push_back(root(nodes[0]));
+    const auto pair = overlapping_cells(mesh, piece);
+    if (pair)
+      file.refuse(cell(pair->first) + " lies in " +
+                  mesh.name_of_cell(pair->second) +
+                  " of another piece: the two overlap, and their mass would "
+                  "count twice; move one of the pieces, or take a part of the "
+                  "file by \"Mesh material id\"");
+  }
+
   void count_pieces()
   {
     n_pieces = count(false);
+    if (n_pieces > 1)
+      refuse_overlap();
     std::string said;
     if (n_pieces > 1)
       said = plural(n_pieces, "piece") + " that share no node";

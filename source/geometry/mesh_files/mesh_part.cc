@@ -98,6 +98,20 @@ void keep_cells(FileMesh &mesh, const std::vector<FileIndex> &cells)
   }
 }
 
+/** Whether a set has this name: as it is spelled, or else as Abaqus has it. */
+bool is_called(const FileMesh::CellSet &set, const std::string &name,
+               const bool by_case)
+{
+  const auto lower = [](std::string text)
+  {
+    for (char &c : text)
+      c = std::tolower(static_cast<unsigned char>(c));
+    return text;
+  };
+  return by_case ? set.name == name || set.also == name
+                 : lower(set.name) == lower(name);
+}
+
 /** The set called @p name; 0 is also the cells that are in none. */
 std::vector<FileIndex> find_part(const FileMesh &mesh, const MeshWish &wish,
                                  std::size_t &n_others)
@@ -106,12 +120,15 @@ std::vector<FileIndex> find_part(const FileMesh &mesh, const MeshWish &wish,
   std::vector<char> is_named(mesh.cells.size(), 0);
   std::size_t n_named_others = 0;
   bool found = false;
+  const bool by_case = std::any_of(mesh.cell_sets.begin(), mesh.cell_sets.end(),
+                                   [&](const FileMesh::CellSet &set)
+                                   { return is_called(set, wish.part, true); });
   for (const auto &set : mesh.cell_sets)
   {
     for (const FileIndex c : set.cells)
       is_named[c] = 1;
     n_named_others += set.n_others;
-    if (set.name != wish.part && set.also != wish.part)
+    if (!is_called(set, wish.part, by_case))
       continue;
     found = true;
     cells.insert(cells.end(), set.cells.begin(), set.cells.end());

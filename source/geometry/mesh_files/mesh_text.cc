@@ -126,6 +126,8 @@ std::string MeshFile::text() const
   all.resize(stream.gcount());
   if (trim(all).empty())
     refuse("it is empty");
+  if (all.compare(0, 2, "\xff\xfe") == 0 || all.compare(0, 2, "\xfe\xff") == 0)
+    refuse("it is no text in UTF-8 but in UTF-16; save it as UTF-8");
   return all;
 }
 
