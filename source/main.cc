@@ -1,6 +1,7 @@
 // The program: its command line, and what each command calls.
 #include "sabot/base/error_report.h"
 #include "sabot/base/mpi_session.h"
+#include "sabot/base/nearest_name.h"
 #include "sabot/base/parameter_file.h"
 #include "sabot/base/program.h"
 #include "sabot/base/stop_signals.h"
@@ -410,6 +411,22 @@ void add_verify(CLI::App &app, Arguments &arguments, Action &action)
                   false};
       });
 }
+
+/** Whether the first word is no command, which is then said. */
+bool is_unknown_command(const CLI::App &app, const int argc, char **argv)
+{
+  const std::string word = argc > 1 ? argv[1] : "-";
+  std::vector<std::string> commands;
+  for (const CLI::App *const command : app.get_subcommands({}))
+    commands.push_back(command->get_name());
+  if (word[0] == '-' ||
+      std::find(commands.begin(), commands.end(), word) != commands.end())
+    return false;
+  std::cerr << "error: there is no command \"" << word << "\"; did you mean \""
+            << nearest_name(word, commands)
+            << "\"? `sabot --help` lists them\n";
+  return true;
+}
 } // namespace
 
 int main(int argc, char **argv)
@@ -433,6 +450,8 @@ int main(int argc, char **argv)
   }
   catch (const CLI::ParseError &e)
   {
+    if (is_unknown_command(app, argc, argv))
+      return static_cast<int>(ExitCode::bad_input);
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
   const auto act = [&]() { return action.run(arguments); };

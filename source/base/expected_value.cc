@@ -42,6 +42,24 @@ std::string in_words(const std::string &pattern)
                                   : "from " + low + " to " + high);
 }
 
+/** Whether of the numbers in the list @p value some have a unit and others,
+    which are not zero, have none. */
+bool mixes_units(const std::string &value)
+{
+  bool has_units = false, lacks_units = false;
+  for (const std::string &item : split(value, ','))
+  {
+    const std::string text = trim(item);
+    const std::optional<double> number = read_quantity(text);
+    if (!number)
+      return false;
+    const bool is_alone = is_digit(text.back()) || text.back() == '.';
+    has_units = has_units || !is_alone;
+    lacks_units = lacks_units || (is_alone && *number != 0.);
+  }
+  return has_units && lacks_units;
+}
+
 /** What to write instead of a value as people write it elsewhere. */
 std::string advice(const std::string &pattern, const std::string &value)
 {
@@ -52,6 +70,8 @@ std::string advice(const std::string &pattern, const std::string &value)
       is_digit(value[comma + 1]))
     return "; write the decimals behind a point, as in " +
            replaced(value, ",", ".");
+  if (!is_one && mixes_units(value))
+    return "; some numbers have a unit and others none: give each its own";
   const std::string word = value.substr(value.find_last_of(" ,") + 1),
                     mark = "(units ";
   const std::size_t units = pattern.find(mark);

@@ -96,12 +96,20 @@ struct Line
     editor has saved it. */
 std::string read_text(const std::string &file, const std::string &included_at)
 {
+  std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
+  if (!stream.is_open() || std::filesystem::is_directory(file, ignored))
     fail(included_at, "",
          "cannot read parameter file \"" + file +
              "\"; check its name and that it is a readable text file");
+  constexpr std::size_t longest = std::size_t(64) << 20; // /dev/zero, a mesh
+  std::string text(longest + 1, '\0');
+  stream.read(&text[0], text.size());
+  text.resize(stream.gcount());
+  if (text.size() > longest)
+    fail(included_at, "",
+         "parameter file \"" + file +
+             "\" has more than 64 MB; is it a scene, or a file of results?");
   const auto begins_with = [&](const std::string &mark)
   { return text.compare(0, mark.size(), mark) == 0; };
   if (begins_with("\xff\xfe") || begins_with("\xfe\xff") ||
@@ -352,7 +360,10 @@ void ParameterFile::parse_into(
       {
         std::string message = std::string("unknown ") +
                               (last ? "entry" : "subsection") + " \"" + wanted +
-                              "\" in " + (above.empty() ? "the scene" : above);
+                              "\" in " +
+                              (!above.empty()           ? above
+                               : tree.contains("Scene") ? "the study"
+                                                        : "the scene");
         std::vector<std::string> elsewhere;
         if (last)
           find_entry(tree, wanted, "", elsewhere);

@@ -119,7 +119,10 @@ bool read_number(const std::string &given, double &number, std::string &unit)
   const std::string text = plain(given);
   char *end;
   number = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || !std::isfinite(number))
+  // strtod takes hexadecimal numbers, too.
+  if (end == text.c_str() || !std::isfinite(number) ||
+      text.substr(0, end - text.c_str()).find_first_of("xX") !=
+          std::string::npos)
     return false;
   unit = trim(end);
   return true;
@@ -189,12 +192,15 @@ bool QuantityPattern::match(const std::string &text) const
   const std::vector<std::string> items = split_at_commas(text);
   if (items.size() < n_min || items.size() > n_max)
     return false;
+  bool has_units = false, lacks_units = false;
   for (const std::string &item : items)
   {
     double number;
     std::string unit_name;
     if (!read_number(item, number, unit_name))
       return false;
+    has_units = has_units || !unit_name.empty();
+    lacks_units = lacks_units || (unit_name.empty() && number != 0.);
     if (!unit_name.empty())
     {
       const Unit *unit = find_unit(unit_name);
@@ -205,7 +211,8 @@ bool QuantityPattern::match(const std::string &text) const
     if (number < min || number > max)
       return false;
   }
-  return true;
+  // "4, 4, 4 mm" is no plate of 4 m.
+  return !(has_units && lacks_units);
 }
 
 std::string QuantityPattern::description(const OutputStyle) const

@@ -18,6 +18,7 @@ public:
         CouplingContext &context) const override
   {
     const std::vector<int> members = contact_members(prm, path, context, 2);
+    keep_apart(pairs_of_members(members, false), path, name, context);
     SelfContactOptions options;
     options.parse_parameters(prm, path);
     const auto has_particles = [&](const int b)
@@ -34,9 +35,6 @@ public:
       if (has_particles(a) && has_particles(b) &&
           context.touching.insert({a, b}).second)
         without.emplace_back(a, b);
-    if (with_faces.empty() && without.empty())
-      throw InputError(path + "/Bodies",
-                       "these bodies meet in other contacts already");
     std::vector<std::unique_ptr<Coupling>> contacts;
     if (!with_faces.empty())
       contacts.push_back(std::make_unique<Contact>(

@@ -46,6 +46,9 @@ public:
     for (const auto &pair : pairs_of_members(breaking, true))
       if (context.touching.count(pair) == 0)
         pairs.push_back(pair);
+    keep_apart(pairs, path, name, context);
+    for (const ContactPair &pair : folding)
+      keep_apart({{pair.nodes_of, pair.faces_of}}, path, name, context);
     std::vector<std::unique_ptr<Coupling>> contacts;
     if (!pairs.empty())
       contacts.push_back(std::make_unique<SelfContact>(

@@ -12,6 +12,14 @@ std::vector<unsigned int> face_ids(const std::string &path,
                                    const std::string &text,
                                    const std::vector<std::string> &allowed)
 {
+  return word_ids(path, text, allowed, "face");
+}
+
+std::vector<unsigned int> word_ids(const std::string &path,
+                                   const std::string &text,
+                                   const std::vector<std::string> &allowed,
+                                   const std::string &what)
+{
   std::vector<unsigned int> ids;
   for (const std::string &face : split_names(text))
   {
@@ -21,7 +29,8 @@ std::vector<unsigned int> face_ids(const std::string &path,
       std::string all;
       for (const std::string &a : allowed)
         all += (all.empty() ? "" : ", ") + a;
-      throw InputError(path, "\"" + face + "\" is not a face; allowed: " + all);
+      throw InputError(path, "\"" + face + "\" is not a " + what +
+                                 "; allowed: " + all);
     }
     ids.push_back(found - allowed.begin());
   }

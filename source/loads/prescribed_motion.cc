@@ -10,6 +10,45 @@ namespace sabot
 {
 namespace
 {
+/** Of nodes that are at fault the one with the least number, on all ranks. */
+struct FirstNode
+{
+  static constexpr double none = std::numeric_limits<double>::max();
+  double number = none, is_tied = 0.;
+  Vec at = {}; // [m]
+
+  void take(const NodalState &state, const std::size_t i)
+  {
+    if (double(state.global_id[i]) >= number)
+      return;
+    number = state.global_id[i];
+    is_tied = state.is_follower(i);
+    at = state.position[i];
+  }
+  /** Whether there is one on any rank. Collective. */
+  bool reduce(MPI_Comm communicator)
+  {
+    double least = number;
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, communicator);
+    if (least == none)
+      return false;
+    double all[4] = {at[0], at[1], at[2], is_tied};
+    for (double &value : all)
+      value = number == least ? value : 0.;
+    MPI_Allreduce(MPI_IN_PLACE, all, 4, MPI_DOUBLE, MPI_SUM, communicator);
+    at = vec(all[0], all[1], all[2]);
+    is_tied = all[3];
+    return true;
+  }
+  std::string place() const
+  {
+    char text[100];
+    std::snprintf(text, sizeof(text), "(%.6g, %.6g, %.6g) mm", 1e3 * at[0],
+                  1e3 * at[1], 1e3 * at[2]);
+    return text;
+  }
+};
+
 /**
  * v = factor(t) V for the held components; of a rigid body V + W x r. Along a
  * step nodes move with the mean of the factor, so that they are where its
@@ -25,6 +64,7 @@ public:
   std::string type() const override { return "prescribed motion"; }
   std::vector<int> drives() const override { return {body.id}; }
   void initialize() override;
+  void check_beside(const Load &other) const override;
   void impose_velocities(const double begin, const double end) override;
   void accumulate_work(const double half_dt) override
   {
@@ -106,7 +146,8 @@ PrescribedMotion::PrescribedMotion(const LoadRequest &request)
   velocity = vec(v[0], v[1], v[2]);
   angular_velocity = vec(w[0], w[1], w[2]);
   for (const unsigned int axis :
-       face_ids(path + "/Components", prm.get("Components"), {"x", "y", "z"}))
+       word_ids(path + "/Components", prm.get("Components"), {"x", "y", "z"},
+                "component"))
     is_held[axis] = true;
   is_rigid = body.loadable()->prescribe_rigid_motion();
   is_whole = split_names(prm.get("Faces")).empty();
@@ -182,10 +223,7 @@ void PrescribedMotion::refuse_contradictions(
     const std::vector<std::size_t> &nodes) const
 {
   const NodalState &state = body.nodes();
-  constexpr double none = std::numeric_limits<double>::max();
-  double first = none;
-  bool is_tied = false;
-  Vec at = {};
+  FirstNode first;
   for (const std::size_t i : nodes)
   {
     bool contradicts = state.is_follower(i);
@@ -197,31 +235,46 @@ void PrescribedMotion::refuse_contradictions(
             contradicts || (is_held[d] && free[d] == 0. &&
                             (velocity[d] != value[d] || value[d] != 0.));
     }
-    if (!contradicts || double(state.global_id[i]) > first)
-      continue;
-    first = state.global_id[i];
-    is_tied = state.is_follower(i);
-    at = state.position[i];
+    if (contradicts)
+      first.take(state, i);
   }
-  double least = first;
-  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, communicator);
-  if (least == none)
+  if (!first.reduce(communicator))
     return;
-  double place[4] = {at[0], at[1], at[2], double(is_tied)};
-  for (double &p : place)
-    p = first == least ? p : 0.;
-  MPI_Allreduce(MPI_IN_PLACE, place, 4, MPI_DOUBLE, MPI_SUM, communicator);
-  char text[120];
-  std::snprintf(text, sizeof(text), "(%.6g, %.6g, %.6g) m", place[0], place[1],
-                place[2]);
-  throw InputError(path + "/Faces",
-                   std::string("the node at ") + text + " of body \"" +
-                       body.name + "\" is " +
-                       (place[3] > 0.
-                            ? "moved by the tie that it follows"
-                            : "held by a clamped, driven or symmetry face") +
-                       "; leave the component out of \"Components\" or that "
-                       "face out of \"Faces\"");
+  throw InputError(
+      path + "/Faces",
+      "the node at " + first.place() + " of body \"" + body.name + "\" is " +
+          (first.is_tied > 0. ? "moved by the tie that it follows"
+                              : "held by a clamped, driven or symmetry face") +
+          "; leave the component out of \"Components\" or that "
+          "face out of \"Faces\"");
+}
+
+void PrescribedMotion::check_beside(const Load &other) const
+{
+  const auto *const motion = dynamic_cast<const PrescribedMotion *>(&other);
+  if (motion == nullptr || &motion->body != &body)
+    return;
+  if (is_rigid)
+    throw InputError(path + "/Body",
+                     "\"" + other.name + "\" prescribes the motion of \"" +
+                         body.name + "\" already; keep one of the two");
+  const NodalState &state = body.nodes();
+  FirstNode first;
+  for (std::size_t i = 0; i < state.n_owned; ++i)
+  {
+    const Vec free = constraints.held_at(i).first,
+              free_of_other = motion->constraints.held_at(i).first;
+    for (int d = 0; d < 3; ++d)
+      if (free[d] == 0. && free_of_other[d] == 0.)
+        first.take(state, i);
+  }
+  if (first.reduce(communicator))
+    throw InputError(path + "/Faces",
+                     "the node at " + first.place() + " of body \"" +
+                         body.name + "\" is moved by \"" + other.name +
+                         "\", too; leave the component out of the "
+                         "\"Components\" of one, or name all faces that move "
+                         "alike in one load");
 }
 
 void PrescribedMotion::impose_velocities(const double begin, const double end)

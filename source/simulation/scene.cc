@@ -317,6 +317,9 @@ void Scene::distribute()
   }
   for (const auto &load : loads)
     load->initialize();
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      loads[i]->check_beside(*loads[j]);
   for (const auto &quantity : quantities)
     quantity->check([this](const std::string &table)
                     { return columns_of(table); });

@@ -41,5 +41,6 @@ void warn_of_doubts(const ParameterFile &file,
   append(scene.warnings, motion.zones_left_behind());
   append(scene.warnings, doubtful_end_time(scene));
   append(scene.warnings, slips_of_entries(file, outlines, scene));
+  append(scene.warnings, slips_of_loads(file, scene));
 }
 } // namespace sabot

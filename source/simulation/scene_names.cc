@@ -25,6 +25,14 @@ void check_names(const Parameters &prm)
       throw InputError("List of bodies",
                        "a body cannot be called \"" + name +
                            "\": history.h5 has a table of this name");
+    // File systems bear 255 bytes, with what is added.
+    constexpr std::size_t longest = 200;
+    if (file_name_of(name).size() > longest)
+      throw InputError(
+          "List of bodies",
+          "\"" + name.substr(0, 20) +
+              "...\" is too long for the name of a file; at most " +
+              std::to_string(longest) + " bytes");
     const auto [at, is_new] = files.emplace(file_name_of(name), name);
     if (!is_new)
       throw InputError("List of bodies",

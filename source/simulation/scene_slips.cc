@@ -83,6 +83,35 @@ public:
     }
   }
 
+  /** What belongs to driven faces, and these without it. */
+  void look_at_drive(const std::string &body)
+  {
+    const std::string start = "Bodies/" + body + "/",
+                      faces = start + "Driven faces",
+                      velocity = start + "Prescribed velocity";
+    if (split_names(file.value(faces, "")).empty())
+    {
+      for (const std::string &path :
+           {velocity, start + "Prescribed components"})
+        if (file.is_set(path))
+          say(path, "has no effect without \"Driven faces\"");
+    }
+    else if (!file.is_set(velocity))
+      say(faces, "no \"Prescribed velocity\" is set: they stand still");
+  }
+
+  /** Half a body flies away from its other half. */
+  void look_at_planes(const Body &body)
+  {
+    const std::string path = "Bodies/" + body.name + "/Initial velocity";
+    const BodyFacts facts = body.facts();
+    for (const SymmetryPlane &plane : body.planes_of_symmetry())
+      if (facts.velocity[plane.axis] != 0.)
+        say(path, "goes across the body's plane of symmetry " +
+                      std::string(1, "xyz"[plane.axis]) +
+                      ": nodes on it stay, the others fly on");
+  }
+
   void look_at_output(const std::string &name, const double end_time)
   {
     const std::string path = "Outputs/" + name + "/Interval";
@@ -113,6 +142,8 @@ std::vector<std::string> slips_of_entries(const ParameterFile &file,
     if (body->facts().deforms)
       slips.look_at_sector(body->name);
     slips.look_at_size(body->name, outlines[body->id]);
+    slips.look_at_drive(body->name);
+    slips.look_at_planes(*body);
   }
   for (const std::string &name : split_names(file.value("List of outputs", "")))
     slips.look_at_output(name, scene.settings.end_time);

@@ -191,7 +191,7 @@ class Input(unittest.TestCase):
                 "Nodal spacing": "1 mm", "Material": "steel"}
         zone = {"zone": {"Type": "tie", "Follower": "core", "Leader": "plate"}}
         self.assertWarns(scene({"plate": plate, "core": {**core, **cut}}, zone))
-        moving = dict(core, **{"Initial velocity": "1 m/s, 0 m/s, 0 m/s"}, **cut)
+        moving = dict(core, **{"Initial velocity": "0 m/s, 0 m/s, 1 m/s"}, **cut)
         self.assertWarns(scene({"plate": plate, "core": moving}, zone),
                          "starts with another velocity")
         self.assertEqual(

@@ -5,6 +5,7 @@
 #include "sabot/couplings/coupling.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -29,6 +30,9 @@ struct CouplingContext
   /** Pairs of bodies of particles that a contact holds apart, lower number
       first. */
   std::set<std::pair<int, int>> touching;
+  /** Pairs of bodies, lower number first, and the coupling that keeps their
+      surfaces or debris apart. */
+  std::map<std::pair<int, int>, std::string> kept_apart;
   /** What the ties of the scene tell each other; the first makes it. */
   std::shared_ptr<TiedNodes> tied_nodes;
 };

@@ -68,6 +68,9 @@ public:
   virtual void initialize() = 0;
   /** Bodies, by number, of which it prescribes velocities. */
   virtual std::vector<int> drives() const { return {}; }
+  /** InputError, on all ranks, where it contradicts @p other, which comes
+      before it in the scene. After initialize() of all loads. Collective. */
+  virtual void check_beside(const Load & /*other*/) const {}
   /** Velocities of owned nodes that it prescribes. @p begin and @p end [s]: the
       stretch of time along which nodes move with them; equal ones: the velocity
       at that time. Local. */

@@ -111,11 +111,17 @@ std::vector<std::string> doubtful_end_time(const Scene &scene);
 
 /** Values of single entries that can hardly be meant, each with its line: an
     angle without unit of more than a turn, a coarsest cell finer than the
-    others, a sector whose cut faces are free, cells larger than their body, an
-    output after the end. */
+    others, a sector whose cut faces are free, cells larger than their body,
+    a drive without velocity or faces, a speed across the own plane of symmetry,
+    an output after the end. */
 std::vector<std::string> slips_of_entries(const ParameterFile &file,
                                           const std::vector<Outline> &outlines,
                                           const Scene &scene);
+
+/** Loads of size zero, tables that are empty or that a run does not reach,
+    pressures beyond the modulus of what they act on. */
+std::vector<std::string> slips_of_loads(const ParameterFile &file,
+                                        const Scene &scene);
 
 /** Adds to the warnings of the scene what all of these say. @p file: which
     contacts it describes, listed or not. */

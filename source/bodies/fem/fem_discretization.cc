@@ -67,9 +67,9 @@ public:
     options.driven_boundary_ids = ids("Driven faces");
     options.driven_velocity = get_vector(prm, "Prescribed velocity");
     options.driven_components = {{false, false, false}};
-    for (const unsigned int axis :
-         face_ids(request.path + "/Prescribed components",
-                  prm.get("Prescribed components"), {"x", "y", "z"}))
+    for (const unsigned int axis : word_ids(
+             request.path + "/Prescribed components",
+             prm.get("Prescribed components"), {"x", "y", "z"}, "component"))
       options.driven_components[axis] = true;
     auto body = std::make_unique<FemBody>(request.name, request.id,
                                           std::move(made.mesh),
