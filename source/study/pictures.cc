@@ -100,7 +100,7 @@ std::string draw_pictures(const nlohmann::ordered_json &drawings,
       fs::path(own_program()).parent_path().string() + "/sabot-charts";
   Command command;
   if (!fs::exists(program))
-    return "\"" + program + "\" is missing; build all targets";
+    return "\"" + program + "\" is missing; scripts/build.sh release builds it";
   if (std::getenv("DISPLAY") == nullptr)
   {
     if (!is_on_path("xvfb-run"))

@@ -4,9 +4,11 @@
 In a copy of the tree, so that the results of one command are there for the next
 one of its page. Commands of scripts/ are not run: the script must exist and know
 the options. What scripts/check_pages.py says of the marks in the pages holds.
+Quantities that a page quotes from a run are those that the run gives.
 """
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -15,6 +17,7 @@ import unittest
 
 SABOT, ROOT, WORK = (os.path.abspath(path) for path in sys.argv[1:4])
 SECONDS = 240  # of one command
+QUANTITY = r"^  ([a-z ]+): ([-+.e\d]+) \S+$"  # "  depth: 0.02 m"
 CHECK = os.path.join(ROOT, "scripts", "check_pages.py")
 # OpenMPI refuses root unless told twice.
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
@@ -67,6 +70,21 @@ class Pages(unittest.TestCase):
             done = execute(arguments, tree)
             self.assertEqual(done.returncode, 0,
                              " ".join(arguments) + "\n" + done.stdout)
+            if words[1] == "run" and not item["options"]:
+                self.compare_quoted(item, done.stdout)
+
+    def compare_quoted(self, item, said):
+        """The text block behind the commands of a run, where there is one."""
+        with open(os.path.join(ROOT, item["page"])) as file:
+            behind = file.read().split("\n", item["line"])[-1]
+        block = re.search(r"```text\n(.*?)```", behind.split("```sh")[0], re.S)
+        for name, value in re.findall(QUANTITY, block.group(1) if block else "",
+                                      re.M):
+            given = dict(re.findall(QUANTITY, said, re.M))
+            self.assertIn(name, given)
+            # A page is taken anew when results have moved by more.
+            self.assertAlmostEqual(float(value) / float(given[name]), 1.,
+                                   delta=0.02, msg=name)
 
     def check_script(self, command):
         for part in command.split("|"):
