@@ -1,8 +1,7 @@
 #ifndef benchmarks_law_batch_h
 #define benchmarks_law_batch_h
 
-#include "sabot/kernels/stress_update.h"
-#include "sabot/materials/material.h"
+#include "verification/law_arrays.h"
 
 #include <cmath>
 #include <vector>
@@ -15,7 +14,7 @@ namespace sabot
 class LawBatch
 {
 public:
-  static constexpr std::size_t n = max_batch_points;
+  static constexpr std::size_t n = LawArrays::most;
 
   explicit LawBatch(const Material &law, const double amount = 5e-4)
   {
@@ -25,29 +24,13 @@ public:
     for (auto &s : states)
       views.push_back(s.data());
     initial = states;
-    batch.n = n;
-    batch.dt = 1e-8;
-    for (int c = 0; c < 6; ++c)
-    {
-      batch.stress[c] = stress[c];
-      batch.strain_increment[c] = strain[c];
-    }
-    batch.jacobian = jacobian;
-    batch.states = views.data();
-    batch.extra_square = extra;
-    batch.return_factor = factor;
-    batch.plastic_work = work;
-    batch.viscous_pressure = viscous;
-    if (law.needs_deformation_gradient())
-      for (int c = 0; c < 9; ++c)
-        batch.deformation_gradient[c] = F[c];
-    if (law.stiffens())
-      batch.stiffening = stiffening;
+    batch = arrays.batch(law, n, 1e-8, views.data());
     for (std::size_t k = 0; k < n; ++k)
     {
-      jacobian[k] = 0.99 + 1e-4 * k;
-      strain[3][k] = amount * (1. + 2e-3 * k);
-      F[0][k] = F[4][k] = F[8][k] = std::cbrt(jacobian[k]);
+      arrays.jacobian[k] = 0.99 + 1e-4 * k;
+      arrays.strain[3][k] = amount * (1. + 2e-3 * k);
+      for (const int c : {0, 4, 8})
+        arrays.F[c][k] = std::cbrt(arrays.jacobian[k]);
     }
   }
   LawBatch(const LawBatch &) = delete;
@@ -59,8 +42,7 @@ public:
   MaterialBatch batch;
 
 private:
-  double stress[6][n] = {}, strain[6][n] = {}, jacobian[n], extra[n] = {},
-         factor[n], work[n], viscous[n] = {}, stiffening[n], F[9][n] = {};
+  LawArrays arrays;
   std::vector<std::vector<double>> states, initial;
   std::vector<double *> views;
 };

@@ -264,22 +264,39 @@ void output(benchmark::State &state)
   set_items(state, body.n_items());
 }
 
-// 10^3, 10^4, 10^5 and, where memory and time allow it, 10^6 particles
-BENCHMARK(gradients_and_gather)->Arg(10)->Arg(22)->Arg(47);
-BENCHMARK(gradients_residuals_and_gather)->Arg(10)->Arg(22)->Arg(47);
-BENCHMARK(gradients_law_and_gather)->Arg(10)->Arg(22)->Arg(47);
-BENCHMARK(spg_step)->Arg(10)->Arg(22)->Arg(47)->Arg(100);
-BENCHMARK(kernel_update)->Arg(10)->Arg(22)->Arg(47);
-BENCHMARK(failure_check)->Arg(10)->Arg(22)->Arg(47)->Arg(100);
-// 10^3 to 10^5 nodes that may touch
-BENCHMARK(contact)->Arg(22)->Arg(70)->Arg(220);
-BENCHMARK(contact_search)->Arg(22)->Arg(70)->Arg(220);
-BENCHMARK(self_contact)->Arg(10)->Arg(22)->Arg(47);
-BENCHMARK(self_contact_search)->Arg(10)->Arg(22)->Arg(47);
+/** 10^3, 10^4, 10^5 items. */
+void of_cubes(benchmark::internal::Benchmark *const phase)
+{
+  for (const int n : {10, 22, 47})
+    phase->Arg(n);
+}
+/** And, where memory and time allow it, 10^6. */
+void of_large_cubes(benchmark::internal::Benchmark *const phase)
+{
+  of_cubes(phase);
+  phase->Arg(100);
+}
+/** 10^3 to 10^5 nodes that may touch. */
+void of_plates(benchmark::internal::Benchmark *const phase)
+{
+  for (const int n : {22, 70, 220})
+    phase->Arg(n);
+}
+
+BENCHMARK(gradients_and_gather)->Apply(of_cubes);
+BENCHMARK(gradients_residuals_and_gather)->Apply(of_cubes);
+BENCHMARK(gradients_law_and_gather)->Apply(of_cubes);
+BENCHMARK(spg_step)->Apply(of_large_cubes);
+BENCHMARK(kernel_update)->Apply(of_cubes);
+BENCHMARK(failure_check)->Apply(of_large_cubes);
+BENCHMARK(contact)->Apply(of_plates);
+BENCHMARK(contact_search)->Apply(of_plates);
+BENCHMARK(self_contact)->Apply(of_cubes);
+BENCHMARK(self_contact_search)->Apply(of_cubes);
 // As often on every rank
-BENCHMARK(exchange)->Arg(10)->Arg(22)->Arg(47)->Iterations(300);
-BENCHMARK(balance)->Arg(10)->Arg(22)->Arg(47)->Arg(100);
-BENCHMARK(output)->Arg(10)->Arg(22)->Arg(47);
+BENCHMARK(exchange)->Apply(of_cubes)->Iterations(300);
+BENCHMARK(balance)->Apply(of_large_cubes);
+BENCHMARK(output)->Apply(of_cubes);
 } // namespace
 
 int main(int argc, char **argv)

@@ -1,6 +1,7 @@
 // The return of whole batches: right at every point, whatever else is in the
 // batch, and the same for a Flow that is written point by point.
 #include "sabot/materials/laws.h"
+#include "verification/law_arrays.h"
 #include "verification/metals.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ using namespace sabot;
 
 /** Points from far below yield to far above it, at rest and hardened, cold and
     molten. */
-struct Points
+struct Points : LawArrays
 {
   explicit Points(const std::size_t n, const unsigned int seed = 1) : n(n)
   {
@@ -56,34 +57,15 @@ struct Points
         states.push_back(v.name == "effective plastic strain" ? eps
                          : v.name == "temperature"            ? temperature
                                                    : other[n_other++]);
-    const double none[max_batch_points] = {};
-    MaterialBatch batch;
-    batch.n = n;
-    batch.dt = dt;
-    for (int c = 0; c < 6; ++c)
-    {
-      batch.stress[c] = stress[c];
-      batch.strain_increment[c] = strain[c];
-    }
     // Simple shear and stretch, as good as any.
     for (int c = 0; c < 9; ++c)
-      batch.deformation_gradient[c] = c % 4 == 0 ? jacobian : strain[c % 6];
-    batch.jacobian = jacobian;
-    batch.states = states.data();
-    batch.extra_square = extra;
-    batch.return_factor = theta;
-    batch.plastic_work = work;
-    batch.viscous_pressure = none;
-    batch.stiffening = law.stiffens() ? stiffening : nullptr;
-    law.update(batch);
+      for (std::size_t k = 0; k < n; ++k)
+        F[c][k] = c % 4 == 0 ? jacobian[k] : strain[c % 6][k];
+    law.update(batch(law, n, dt, states.data()));
   }
 
   std::size_t n;
-  double stress[6][max_batch_points], strain[6][max_batch_points];
-  double jacobian[max_batch_points], extra[max_batch_points];
   double eps[max_batch_points], temperature[max_batch_points];
-  double theta[max_batch_points], work[max_batch_points],
-      stiffening[max_batch_points];
   double other[7][max_batch_points] = {}; // back stress, energy, damage
 };
 
@@ -153,13 +135,13 @@ void expect_roots(const Flow &flow)
       }
       const double q = std::sqrt(square + before.extra[k]),
                    // eps + d is too round for the smallest ones
-          d = after.work[k] > 0. ? after.work[k] / (after.theta[k] * q)
+          d = after.work[k] > 0. ? after.work[k] / (after.factor[k] * q)
                                  : after.eps[k] - before.eps[k];
       double slope;
       const double yield = flow.stress(at, before.eps[k], 0., dt, slope);
       if (std::abs(q - yield) < 1e-9 * q || !(G > 0.))
         continue;
-      EXPECT_EQ(d > 0. || after.theta[k]<1., q> yield) << k << " " << seed;
+      EXPECT_EQ(d > 0. || after.factor[k]<1., q> yield) << k << " " << seed;
       if (!(q > yield))
       {
         ++n_elastic;
@@ -171,7 +153,7 @@ void expect_roots(const Flow &flow)
                   2e-8 * q)
           << "eps " << before.eps[k] << " d " << d << " dt " << dt;
       EXPECT_NEAR(after.eps[k], before.eps[k] + d, 1e-14);
-      EXPECT_NEAR(after.theta[k], 1. - 3. * G * d / q, 1e-7);
+      EXPECT_NEAR(after.factor[k], 1. - 3. * G * d / q, 1e-7);
     }
   }
   EXPECT_GT(n_yielding, 500u);
@@ -203,7 +185,7 @@ void expect_no_neighbors(const std::string &name, const Material &law)
         EXPECT_EQ(alone.stress[c][0], together.stress[c][k]);
       EXPECT_EQ(alone.eps[0], together.eps[k]);
       EXPECT_EQ(alone.temperature[0], together.temperature[k]);
-      EXPECT_EQ(alone.theta[0], together.theta[k]);
+      EXPECT_EQ(alone.factor[0], together.factor[k]);
       EXPECT_EQ(alone.work[0], together.work[k]);
       for (int row = 0; row < 7; ++row)
         EXPECT_EQ(alone.other[row][0], together.other[row][k]);
