@@ -46,6 +46,16 @@ void BoxBuckets::for_all(const Box &box, const Action &action) const
         action((k * n[1] + j) * n[0] + i);
 }
 
+std::vector<Box> boxes_of_ranks(const Box &mine, MPI_Comm communicator)
+{
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  std::vector<Box> all(n_ranks);
+  MPI_Allgather(&mine, sizeof(Box), MPI_BYTE, all.data(), sizeof(Box), MPI_BYTE,
+                communicator);
+  return all;
+}
+
 BoxBuckets::BoxBuckets(const std::vector<Box> &boxes, double size)
 {
   Box all;

@@ -1,7 +1,9 @@
 // Bucket search of the faces that nodes may touch.
 #include "sabot/couplings/contact_search.h"
 
+#include "sabot/base/send_some.h"
 #include "sabot/couplings/box_buckets.h"
+#include "sabot/couplings/share_candidates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,15 +114,47 @@ double widest_face(const NodalState &nodes, const ContactSurface &surface,
   return widest;
 }
 
+/** To each rank the faces within @p distance [m] along all axes of a box around
+    those of its nodes that may touch any, from all others. Collective. */
+std::vector<FaceNodes> send_near(const ContactSearch &search,
+                                 const std::vector<Extent> &extents,
+                                 const std::vector<FaceNodes> &mine,
+                                 const double distance)
+{
+  Box around;
+  for (const ContactPair &pair : search.pairs)
+    for (const std::size_t i : search.surfaces[pair.nodes_of].nodes)
+    {
+      const Vec x = search.bodies[pair.nodes_of]->nodes().position[i];
+      if (extents[pair.faces_of].faces.contains(x))
+        around.add(x);
+    }
+  around.inflate(distance);
+  const std::vector<Box> boxes = boxes_of_ranks(around, search.communicator);
+  std::vector<std::vector<FaceNodes>> to_rank(boxes.size());
+  for (const FaceNodes &face : mine)
+  {
+    Box box;
+    for (const Vec x : face.x)
+      box.add(x);
+    for (std::size_t r = 0; r < boxes.size(); ++r)
+      if (boxes[r].meets(box))
+        to_rank[r].push_back(face);
+  }
+  return send_some(to_rank, search.communicator);
+}
+
 /** Faces near nodes of other bodies, those around their corners, and those
     around nodes near other bodies' faces, for their normals; each from the rank
-    of its lowest node. Collective. */
+    of its lowest node, to those that have nodes near it. Collective. */
 std::vector<FaceNodes> gather_faces(const ContactSearch &search,
-                                    const std::vector<Extent> &extents)
+                                    const std::vector<Extent> &extents,
+                                    const double reach)
 {
   int rank;
   MPI_Comm_rank(search.communicator, &rank);
   std::vector<FaceNodes> mine;
+  double widest_of_all = 0.;
   for (std::size_t b = 0; b < extents.size(); ++b)
   {
     if (!extents[b].is_used)
@@ -129,6 +163,7 @@ std::vector<FaceNodes> gather_faces(const ContactSearch &search,
     const NodalState &nodes = body.nodes();
     const double widest =
         widest_face(nodes, search.surfaces[b], search.communicator);
+    widest_of_all = std::max(widest_of_all, widest);
     for (std::size_t f = 0; f < search.surfaces[b].faces.size(); ++f)
     {
       FaceNodes face;
@@ -159,7 +194,8 @@ std::vector<FaceNodes> gather_faces(const ContactSearch &search,
         mine.push_back(face);
     }
   }
-  std::vector<FaceNodes> all = gather_all(mine, search.communicator);
+  std::vector<FaceNodes> all =
+      send_near(search, extents, mine, (1. + 1e-9) * reach + widest_of_all);
   std::sort(all.begin(), all.end(),
             [](const FaceNodes &a, const FaceNodes &b)
             { return a.body != b.body ? a.body < b.body : a.id < b.id; });
@@ -312,29 +348,6 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
       if (!nodes.is_follower(i)) // followers stay with their leaders
         try_node(i, 1.);
 }
-
-/** What all ranks found, in one order. Collective. */
-void merge(SearchResult &result, MPI_Comm communicator)
-{
-  result.candidates = gather_all(result.candidates, communicator);
-  result.face_of_candidate = gather_all(result.face_of_candidate, communicator);
-  // Lists of later ranks moved to the back.
-  std::int64_t first = 0;
-  for (ContactCandidate &c : result.candidates)
-  {
-    c.last_face += first - c.first_face;
-    c.first_face = first;
-    first = c.last_face;
-  }
-  const auto body_of_faces = [&](const ContactCandidate &c)
-  { return result.faces[result.face_of_candidate[c.first_face]].body; };
-  std::sort(result.candidates.begin(), result.candidates.end(),
-            [&](const ContactCandidate &a, const ContactCandidate &b)
-            {
-              return a.node == b.node ? body_of_faces(a) < body_of_faces(b)
-                                      : a.node < b.node;
-            });
-}
 } // namespace
 
 SearchResult ContactSearch::find() const
@@ -346,11 +359,11 @@ SearchResult ContactSearch::find() const
   const double reach = deepest + skin;
   const std::vector<Extent> extents = find_extents(*this, reach);
   SearchResult result;
-  result.faces = gather_faces(*this, extents);
+  result.faces = gather_faces(*this, extents, reach);
   const FaceBuckets buckets(result.faces, bodies.size(), reach);
   for (const ContactPair &pair : pairs)
     try_nodes(*this, pair, extents[pair.faces_of].faces, buckets, result);
-  merge(result, communicator);
+  share_candidates(result, bodies, communicator);
   return result;
 }
 } // namespace sabot

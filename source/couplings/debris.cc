@@ -1,44 +1,69 @@
 // Loose particles of all ranks, and their images in planes of symmetry.
 #include "sabot/couplings/debris.h"
 
+#include "sabot/base/send_some.h"
+#include "sabot/couplings/box_buckets.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace sabot
 {
-Debris Debris::gather(const std::vector<Body *> &bodies,
-                      const std::vector<std::pair<int, int>> &body_pairs,
-                      MPI_Comm communicator)
+Debris::Debris(const std::vector<Body *> &bodies,
+               const std::vector<std::pair<int, int>> &body_pairs)
 {
   const std::size_t n_bodies = bodies.size();
-  Debris debris;
-  debris.views.resize(n_bodies);
-  debris.meet.assign(n_bodies * n_bodies, 0);
+  views.resize(n_bodies);
+  meet.assign(n_bodies * n_bodies, 0);
   std::vector<char> used(n_bodies, 0);
   for (const auto &[a, b] : body_pairs)
   {
-    debris.meet[a * n_bodies + b] = debris.meet[b * n_bodies + a] = 1;
+    meet[a * n_bodies + b] = meet[b * n_bodies + a] = 1;
     used[a] = used[b] = 1;
   }
   for (std::size_t b = 0; b < n_bodies; ++b)
   {
     if (!used[b])
       continue;
-    const DebrisView &view = debris.views[b] = bodies[b]->particles()->debris();
-    debris.largest_spacing = std::max(debris.largest_spacing, view.spacing);
+    const DebrisView &view = views[b] = bodies[b]->particles()->debris();
+    largest_spacing = std::max(largest_spacing, view.spacing);
     const NodalState &nodes = bodies[b]->nodes();
     for (std::size_t k = 0; k < view.nodes.size(); ++k)
     {
       const std::size_t i = view.nodes[k];
-      debris.mine.push_back(
-          {{std::int32_t(b), 0, nodes.global_id[i]},
-           i,
-           !view.is_continuous.empty() && view.is_continuous[k],
-           nodes.position[i]});
+      mine.push_back({{std::int32_t(b), 0, nodes.global_id[i]},
+                      i,
+                      !view.is_continuous.empty() && view.is_continuous[k],
+                      nodes.position[i]});
     }
   }
-  debris.all = gather_all(debris.mine, communicator);
-  return debris;
+}
+
+void Debris::gather_near(const DebrisImages &images, const double reach,
+                         MPI_Comm communicator)
+{
+  n_all = mine.size();
+  MPI_Allreduce(MPI_IN_PLACE, &n_all, 1, MPI_INT64_T, MPI_SUM, communicator);
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  Box around;
+  for (const LooseParticle &p : mine)
+    around.add(p.x);
+  around.inflate((1. + 1e-9) * reach);
+  const std::vector<Box> boxes = boxes_of_ranks(around, communicator);
+  std::vector<std::vector<LooseParticle>> to_rank(boxes.size());
+  to_rank[rank] = mine;
+  std::vector<std::size_t> last(boxes.size(), mine.size()); // that was told
+  if (boxes.size() > 1)
+    for (const DebrisImages::Item &item : images.with_images(mine, reach))
+      for (std::size_t r = 0; r < boxes.size(); ++r)
+        if (int(r) != rank && last[r] != item.number &&
+            boxes[r].contains(item.x))
+        {
+          to_rank[r].push_back(mine[item.number]);
+          last[r] = item.number;
+        }
+  near = send_some(to_rank, communicator);
 }
 
 DebrisImages::DebrisImages(const std::vector<Body *> &bodies)

@@ -1,6 +1,7 @@
 // Contact between bodies of particles.
 #include "sabot/couplings/particle_contact.h"
 
+#include "sabot/base/send_some.h"
 #include "sabot/couplings/contact_search.h"
 
 #include <algorithm>
@@ -95,11 +96,37 @@ void ParticleContact::search()
                                        found.surface(node.key.body),
                                        found.surface(other)));
     }
-  keep_relevant(gather_all(my_groups, communicator),
-                gather_all(my_members, communicator));
+  tell_owners(my_groups, my_members);
   build_halo();
   if (options.shear_strength.needs_flow_stress())
     halo.find_flow_stress(flow_stress);
+}
+
+void ParticleContact::tell_owners(const std::vector<Group> &my_groups,
+                                  const std::vector<Member> &my_members)
+{
+  int n_ranks, rank;
+  MPI_Comm_size(communicator, &n_ranks);
+  MPI_Comm_rank(communicator, &rank);
+  std::vector<std::vector<Group>> to_rank(n_ranks);
+  std::vector<std::vector<Member>> its(n_ranks);
+  auto begin = my_members.begin();
+  for (const Group &group : my_groups)
+  {
+    const auto end = begin + group.n_members;
+    std::vector<int> owners = {rank};
+    for (auto m = begin; m != end; ++m)
+      owners.push_back(bodies[m->key.body]->node_owner[m->key.node]);
+    std::sort(owners.begin(), owners.end());
+    owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+    for (const int owner : owners)
+    {
+      to_rank[owner].push_back(group);
+      its[owner].insert(its[owner].end(), begin, end);
+    }
+    begin = end;
+  }
+  keep_relevant(send_some(to_rank, communicator), send_some(its, communicator));
 }
 
 void ParticleContact::keep_relevant(const std::vector<Group> &all,

@@ -1,6 +1,7 @@
 // Particles of several bodies near each other.
 #include "sabot/couplings/particle_search.h"
 
+#include "sabot/base/send_some.h"
 #include "sabot/couplings/box_buckets.h"
 
 #include <algorithm>
@@ -122,11 +123,20 @@ void ParticleSearch::find_mine(const Body &body, const std::int32_t number,
 
 void ParticleSearch::gather_touchable(MPI_Comm communicator)
 {
-  std::vector<SearchedParticle> my_touchable;
+  Box mine;
   for (const SearchedParticle &particle : my_particles)
-    if (particle.unit_reach > 0.)
-      my_touchable.push_back(particle);
-  touchable = gather_all(my_touchable, communicator);
+    mine.add(particle.x);
+  double spacing = 0.;
+  for (const ContactSurface &its : surfaces)
+    spacing = std::max(spacing, its.spacing);
+  mine.inflate(1e-9 * spacing); // round-off
+  const std::vector<Box> boxes = boxes_of_ranks(mine, communicator);
+  std::vector<std::vector<SearchedParticle>> to_rank(boxes.size());
+  for (const SearchedParticle &particle : my_particles)
+    for (std::size_t r = 0; r < boxes.size() && particle.unit_reach > 0.; ++r)
+      if (boxes[r].meets(box_around(particle)))
+        to_rank[r].push_back(particle);
+  touchable = send_some(to_rank, communicator);
   std::sort(touchable.begin(), touchable.end(),
             [](const SearchedParticle &a, const SearchedParticle &b)
             { return a.key < b.key; });

@@ -105,11 +105,12 @@ void SelfContact::find_pairs()
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  const Debris debris = Debris::gather(bodies, body_pairs, communicator);
-  const std::vector<LooseParticle> &all = debris.all;
-  n_loose = all.size();
+  Debris debris(bodies, body_pairs);
   const double reach = options.contact_distance * debris.largest_spacing + skin;
-  const std::vector<DebrisImages::Item> items = images.with_images(all, reach);
+  debris.gather_near(images, reach, communicator);
+  n_loose = debris.n_all;
+  const std::vector<LooseParticle> &near = debris.near;
+  const std::vector<DebrisImages::Item> items = images.with_images(near, reach);
   PointBuckets buckets(reach);
   for (std::size_t k = 0; k < items.size(); ++k)
     buckets.add(items[k].x, k);
@@ -123,7 +124,7 @@ void SelfContact::find_pairs()
         [&](const std::size_t k)
         {
           const DebrisImages::Item &other = items[k];
-          const LooseParticle &to = all[other.number];
+          const LooseParticle &to = near[other.number];
           const NodeKey &b = to.key;
           const double distance = norm(other.x - from.x);
           if (distance > reach || !debris.may_meet(a, b) ||

@@ -53,6 +53,9 @@ struct Box
   void reduce(MPI_Comm communicator);
 };
 
+/** The boxes of all ranks, by rank. Collective. */
+std::vector<Box> boxes_of_ranks(const Box &mine, MPI_Comm communicator);
+
 /**
  * Boxes by the buckets of a regular grid that they cover, as one compressed
  * list: bucket (k n_y + j) n_x + i holds items[start[b]] to items[start[b + 1]

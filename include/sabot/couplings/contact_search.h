@@ -42,10 +42,11 @@ struct ContactCandidate
   double cut;
 };
 
-/** What a search found; the same on every rank. A node that may touch several
-    bodies has one candidate for each, one after the other. Among the faces are
-    all around the corners of those that a node may touch, and around the nodes
-    of candidates. */
+/** What a search found: of nodes owned here, and of others that may touch a
+   face with a corner owned here. A node that may touch several bodies has one
+    candidate for each, one after the other. Among the faces are all around the
+    corners of those that a node may touch, and around the nodes of candidates.
+ */
 struct SearchResult
 {
   std::vector<FaceNodes> faces;                // sorted by body and id
@@ -60,9 +61,10 @@ using ContactMemories = std::vector<std::pair<NodeKey, ContactMemory>>;
 /**
  * Bucket search: every node of the pairs with the faces closer than
  * max(spacing, its depth, at most 3 spacings) + skin. Three steps: faces near
- * the other body's nodes are gathered from all ranks and put into buckets; each
- * rank tries its own nodes; what was found is merged in one order. Cost is
- * linear in nodes and faces near the overlap of the bodies' bounding boxes.
+ * the other body's nodes go to the ranks with nodes near them and into buckets;
+ * each rank tries its own nodes; what was found goes to the ranks that own a
+ * part of it (share_candidates()). Cost is linear in nodes and faces near the
+ * overlap of the bodies' bounding boxes.
  */
 struct ContactSearch
 {
@@ -75,7 +77,7 @@ struct ContactSearch
   bool with_areas;      // whether ContactCandidate::area is asked for
   MPI_Comm communicator;
 
-  /** Collective; the same on every rank. */
+  /** Collective. */
   SearchResult find() const;
 };
 } // namespace sabot

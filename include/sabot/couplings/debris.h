@@ -19,24 +19,6 @@ struct LooseParticle
   Vec x;
 };
 
-/** The loose particles of the bodies that take part, and who meets whom. */
-struct Debris
-{
-  std::vector<DebrisView> views; // of bodies
-  std::vector<char> meet;        // two bodies, a row each
-  std::vector<LooseParticle> mine, all;
-  double largest_spacing = 0.; // [m]
-
-  bool may_meet(const NodeKey &a, const NodeKey &b) const
-  {
-    return meet[a.body * views.size() + b.body];
-  }
-  /** Of the bodies in @p body_pairs. Collective. */
-  static Debris gather(const std::vector<Body *> &bodies,
-                       const std::vector<std::pair<int, int>> &body_pairs,
-                       MPI_Comm communicator);
-};
-
 /**
  * Mirror images of debris in the planes of symmetry of a scene. An image is a
  * set of planes, a bit each, in which a particle is mirrored one after the
@@ -77,6 +59,29 @@ public:
 private:
   std::vector<SymmetryWall> walls;    // of all bodies
   std::vector<std::uint64_t> of_body; // a bit for each wall
+};
+
+/** The loose particles of the bodies that take part, and who meets whom. */
+struct Debris
+{
+  std::vector<DebrisView> views; // of bodies
+  std::vector<char> meet;        // two bodies, a row each
+  /** Owned here; of all ranks those near one of these, these included. */
+  std::vector<LooseParticle> mine, near;
+  std::int64_t n_all = 0;
+  double largest_spacing = 0.; // [m]
+
+  bool may_meet(const NodeKey &a, const NodeKey &b) const
+  {
+    return meet[a.body * views.size() + b.body];
+  }
+  /** Those of the bodies in @p body_pairs that are owned here. Local. */
+  Debris(const std::vector<Body *> &bodies,
+         const std::vector<std::pair<int, int>> &body_pairs);
+  /** Of all ranks what is, or has an image, within @p reach [m] of mine.
+      Collective. */
+  void gather_near(const DebrisImages &images, const double reach,
+                   MPI_Comm communicator);
 };
 } // namespace sabot
 

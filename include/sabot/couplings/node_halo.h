@@ -1,6 +1,7 @@
 #ifndef sabot_couplings_node_halo_h
 #define sabot_couplings_node_halo_h
 
+#include "sabot/base/gather_all.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/body.h"
 
@@ -111,26 +112,6 @@ private:
   GhostExchange exchange;
   std::uint64_t n_updates = 0;
 };
-
-/** Concatenate the vectors of all ranks in rank order; T goes as it is in
-    memory. Collective, the same on all ranks. */
-template <typename T>
-std::vector<T> gather_all(const std::vector<T> &mine, MPI_Comm communicator)
-{
-  int n_ranks;
-  MPI_Comm_size(communicator, &n_ranks);
-  if (n_ranks == 1)
-    return mine;
-  const int n_bytes = mine.size() * sizeof(T);
-  std::vector<int> sizes(n_ranks), offsets(n_ranks + 1, 0);
-  MPI_Allgather(&n_bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, communicator);
-  for (int r = 0; r < n_ranks; ++r)
-    offsets[r + 1] = offsets[r] + sizes[r];
-  std::vector<T> all(offsets[n_ranks] / sizeof(T));
-  MPI_Allgatherv(mine.data(), n_bytes, MPI_BYTE, all.data(), sizes.data(),
-                 offsets.data(), MPI_BYTE, communicator);
-  return all;
-}
 } // namespace sabot
 
 #endif

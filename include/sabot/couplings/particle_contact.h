@@ -83,6 +83,9 @@ private:
   Group make_group(const SearchedParticle &node, const int other,
                    const std::int64_t n_members, const ContactSurface &mine,
                    const ContactSurface &its) const;
+  /** Each group to the owners of all that it touches. Collective. */
+  void tell_owners(const std::vector<Group> &my_groups,
+                   const std::vector<Member> &my_members);
   /** Of all ranks' groups those that touch nodes owned here, in one order. */
   void keep_relevant(const std::vector<Group> &all,
                      const std::vector<Member> &all_members);

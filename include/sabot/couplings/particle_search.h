@@ -66,13 +66,14 @@ private:
   void find_mine(const Body &body, const std::int32_t number,
                  const std::vector<int> &others, const std::vector<Box> &extent,
                  const double skin);
-  /** What may be touched, of all ranks, in buckets. Collective. */
+  /** What particles owned here may touch, in buckets. Collective. */
   void gather_touchable(MPI_Comm communicator);
 
   std::vector<ContactSurface> surfaces;
   double smallest_gap = 0.;
-  std::vector<SearchedParticle> my_particles, touchable; // of all ranks
-  std::vector<std::unique_ptr<BoxBuckets>> buckets;      // per body
+  std::vector<SearchedParticle> my_particles;
+  std::vector<SearchedParticle> touchable;          // of all ranks, near mine
+  std::vector<std::unique_ptr<BoxBuckets>> buckets; // per body
   std::vector<std::size_t> first; // of each body's particles in touchable
 };
 } // namespace sabot

@@ -1,6 +1,7 @@
 // Search for new neighbors among all particles of the body.
 #include "sabot/bodies/spg/neighbor_search.h"
 
+#include "sabot/base/gather_all.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/particle_fields.h"
@@ -23,11 +24,10 @@ struct Item
 std::vector<Item> gather_items(const NodalState &nodes,
                                const ParticleFields &fields,
                                const BondFailure &failure,
-                               const GlobalIndex n_global,
                                MPI_Comm communicator)
 {
   const std::size_t n = nodes.n_owned;
-  std::vector<Item> mine(n), all(n_global);
+  std::vector<Item> mine(n);
   for (std::size_t i = 0; i < n; ++i)
   {
     mine[i].id = nodes.global_id[i];
@@ -40,15 +40,7 @@ std::vector<Item> gather_items(const NodalState &nodes,
         mine[i].to_kernel[3 * d + e] = inverse_kernel(d, e);
     }
   }
-  int n_ranks;
-  MPI_Comm_size(communicator, &n_ranks);
-  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
-  const int bytes = n * sizeof(Item);
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-  for (int r = 1; r < n_ranks; ++r)
-    starts[r] = starts[r - 1] + counts[r - 1];
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(),
-                 starts.data(), MPI_BYTE, communicator);
+  std::vector<Item> all = gather_all(mine, communicator);
   std::sort(all.begin(), all.end(),
             [](const Item &a, const Item &b) { return a.id < b.id; });
   return all;
@@ -91,7 +83,7 @@ BondList::Rows search_neighbors(const SpgOptions &options,
 {
   const std::size_t n = nodes.n_owned;
   const std::vector<Item> all =
-      gather_items(nodes, fields, failure, n_global, communicator);
+      gather_items(nodes, fields, failure, communicator);
   const double reach = kernel_reach(nodes, fields, communicator);
   std::vector<std::array<double, 3>> points(n_global);
   for (GlobalIndex i = 0; i < n_global; ++i)

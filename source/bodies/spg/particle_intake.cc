@@ -1,6 +1,7 @@
 // An SPG body that grows: new particles of what cells of the host give.
 #include "sabot/bodies/spg/particle_intake.h"
 
+#include "sabot/base/gather_all.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
@@ -74,18 +75,7 @@ std::vector<std::size_t> ParticleIntake::number_new()
     mine.push_back(id);
     entries.push_back(k);
   }
-  int n_ranks;
-  MPI_Comm_size(body.communicator, &n_ranks);
-  const int n_mine = mine.size();
-  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
-  MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT,
-                body.communicator);
-  for (int r = 1; r < n_ranks; ++r)
-    starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<GlobalIndex> all(starts.back() + counts.back());
-  static_assert(sizeof(GlobalIndex) == sizeof(std::int64_t), "sent as 64 bits");
-  MPI_Allgatherv(mine.data(), n_mine, MPI_INT64_T, all.data(), counts.data(),
-                 starts.data(), MPI_INT64_T, body.communicator);
+  std::vector<GlobalIndex> all = gather_all(mine, body.communicator);
   std::sort(all.begin(), all.end());
   for (const GlobalIndex id : all)
   {

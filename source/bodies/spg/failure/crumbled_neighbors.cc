@@ -1,6 +1,7 @@
 // Neighbors of metal that has crumbled: those that are near now.
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 
+#include "sabot/base/gather_all.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
@@ -32,16 +33,7 @@ AlignedVector<Crumb> gather_crumbs(const NodalState &nodes,
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     if (failure.has_crumbled(i))
       mine.push_back({nodes.global_id[i], nodes.position[i]});
-  int n_ranks;
-  MPI_Comm_size(communicator, &n_ranks);
-  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
-  const int bytes = mine.size() * sizeof(Crumb);
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-  for (int r = 1; r < n_ranks; ++r)
-    starts[r] = starts[r - 1] + counts[r - 1];
-  AlignedVector<Crumb> all((starts.back() + counts.back()) / sizeof(Crumb));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(),
-                 starts.data(), MPI_BYTE, communicator);
+  AlignedVector<Crumb> all = gather_all(mine, communicator);
   std::sort(all.begin(), all.end(),
             [](const Crumb &a, const Crumb &b) { return a.id < b.id; });
   return all;

@@ -2,6 +2,7 @@
 #include "sabot/bodies/spg/failure/fragments.h"
 
 #include "sabot/base/exact_sum.h"
+#include "sabot/base/gather_all.h"
 #include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
@@ -100,15 +101,7 @@ void reduce(std::map<GlobalIndex, Sums> &local, MPI_Comm communicator)
   std::vector<GlobalIndex> mine;
   for (const auto &entry : local)
     mine.push_back(entry.first);
-  std::vector<int> counts(n_ranks), starts(n_ranks, 0);
-  const int n_mine = mine.size();
-  MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-  for (int r = 1; r < n_ranks; ++r)
-    starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<GlobalIndex> all(starts.back() + counts.back());
-  MPI_Allgatherv(mine.data(), n_mine, MPI_INT64_T, all.data(), counts.data(),
-                 starts.data(), MPI_INT64_T, communicator);
-  for (const GlobalIndex l : all)
+  for (const GlobalIndex l : gather_all(mine, communicator))
     local[l];
   std::vector<ExactSum *> sums;
   std::vector<GlobalIndex> sizes;
