@@ -36,6 +36,8 @@ SCENES = (
     ("planes of symmetry", "tests/scenes/planes.prm", 2, (4,), 0.5, ()),
     ("a tie that tears", "tests/scenes/torn.prm", 4, (2,), 0.5, ()),
     ("loads", "tests/scenes/loads.prm", 1, (4,), 0.5, ()),
+    ("loads beside cells that turn", "tests/scenes/growing.prm", 3, (2,), 0.6,
+     ()),
     ("erosion", "prm/perforation/fem-erosion.prm", 4, (3,), 0.8,
      ("Bodies/plate/Cell size=2.5 mm", "End time=9 us",
       "Outputs/fields/Interval=9 us")),
