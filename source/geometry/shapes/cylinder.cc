@@ -1,6 +1,7 @@
 // The shape "cylinder": along an axis, whole or a half or a quarter of it, with
 // rings of cells that may grow away from a fine middle part or a zone.
 #include "sabot/geometry/mesh_generator.h"
+#include "sabot/geometry/sector.h"
 #include "sabot/geometry/shape.h"
 
 namespace sabot
@@ -26,11 +27,11 @@ public:
                      "outwards.");
     prm.declare_knob("Coarsest cell size", "none", word_or("none", length),
                      "Rings grow up to this thickness.");
-    prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
-                     "Part of the cylinder that is modeled: half keeps the "
-                     "positive side of the axis that follows the cylinder's "
-                     "(x after z), quarter that of the other one, too. The "
-                     "cut planes are called as a box's faces, e.g. -x, -y.");
+    Sector::declare(prm, "cylinder",
+                    "half keeps the positive side of the axis that follows the "
+                    "cylinder's (x after z), quarter that of the other one, "
+                    "too. The cut planes are called as a box's faces, e.g. -x, "
+                    "-y.");
   }
 
   std::string face_names() const override
@@ -42,15 +43,13 @@ public:
   {
     const Parameters &prm = request.prm;
     const unsigned int axis = axis_of(prm);
-    const std::string sector = prm.get("Sector");
-    const unsigned int n_cuts = sector == "full" ? 0 : sector == "half" ? 1 : 2;
+    const Sector sector = Sector::parse(prm);
     std::vector<std::string> faces = {"lower", "upper", "side"};
-    for (unsigned int cut = 0; cut < n_cuts; ++cut)
-      faces.push_back(box_faces[2 * ((axis + 1 + cut) % 3)]);
+    sector.name_cuts(axis + 1, faces);
     return {make_cylinder(get_quantity(prm, "Radius"),
                           get_quantity(prm, "Length"), axis,
-                          get_vector(prm, "Center"), request.cell_size, n_cuts,
-                          grading(request)),
+                          get_vector(prm, "Center"), request.cell_size,
+                          sector.n_cuts, grading(request)),
             std::move(faces)};
   }
 
@@ -64,7 +63,7 @@ public:
   std::optional<ZoneShape> zone(const Parameters &prm,
                                 const std::string &path) const override
   {
-    if (prm.get("Sector") != "full")
+    if (!Sector::parse(prm).is_full())
       throw InputError(path + "/Sector",
                        "has no effect: the zone has the cells of the body "
                        "that it is carved from; remove the entry");

@@ -1,5 +1,6 @@
 // The shape "projectile": a cylinder with a nose.
 #include "sabot/geometry/round_bodies.h"
+#include "sabot/geometry/sector.h"
 #include "sabot/geometry/shape.h"
 
 namespace sabot
@@ -20,11 +21,11 @@ public:
     prm.declare_entry("Nose", "ogive", one_of("ogive|conical|spherical"),
                       "Shape of the nose; the ogive is tangent to the shaft.");
     prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
-    prm.declare_knob("Sector", "full", one_of("full|half|quarter"),
-                     "Part of the projectile that is modeled: half keeps the "
-                     "positive side of the axis that follows the projectile's "
-                     "(x after z), quarter that of the other one, too. The "
-                     "cut planes are called as a box's faces, e.g. -x, -y.");
+    Sector::declare(prm, "projectile",
+                    "half keeps the positive side of the axis that follows the "
+                    "projectile's (x after z), quarter that of the other one, "
+                    "too. The cut planes are called as a box's faces, e.g. -x, "
+                    "-y.");
   }
 
   std::string face_names() const override
@@ -60,11 +61,10 @@ public:
     projectile.towards_positive = axis[0] != '-';
     projectile.center = get_vector(prm, "Center");
     projectile.cell_size = request.cell_size;
-    const std::string sector = prm.get("Sector");
-    projectile.n_cuts = sector == "full" ? 0 : sector == "half" ? 1 : 2;
+    const Sector sector = Sector::parse(prm);
+    projectile.n_cuts = sector.n_cuts;
     std::vector<std::string> faces = {"end", "side"};
-    for (unsigned int cut = 0; cut < projectile.n_cuts; ++cut)
-      faces.push_back(box_faces[2 * ((projectile.axis + 1 + cut) % 3)]);
+    sector.name_cuts(projectile.axis + 1, faces);
     return {make_projectile(projectile), std::move(faces)};
   }
 };
