@@ -305,7 +305,7 @@ std::vector<Check> hertz()
     double largest = 0., old_momentum = 0., old_time = 0.;
     const double m = world.bodies[1]->measure().mass;
     old_momentum = -0.5 * m * v;
-    while (world.stepper.time() < 1.2 * duration)
+    while (world.stepper.time() < 1.5 * duration)
     {
       world.advance(0.9);
       // Force as the slope of the momentum over a twentieth of the contact.

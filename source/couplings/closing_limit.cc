@@ -1,6 +1,8 @@
 // The step limit of bodies that close in on each other.
 #include "sabot/couplings/closing_limit.h"
 
+#include "sabot/couplings/pressing_place.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -159,8 +161,9 @@ void ClosingLimit::find_motions()
       continue;
     const double *const bound = &bounds[12 * b];
     Motion &motion = motions[b];
-    // Until the next look the nodes of others move on.
-    const double margin = is_rigid[b] ? 0. : spacing[b];
+    // Round surfaces stand out from their nodes; until the next look the nodes
+    // of others move on.
+    const double margin = (is_rigid[b] ? most_bulge : 1.) * spacing[b];
     for (int d = 0; d < 3; ++d)
     {
       motion.low[d] = bound[d] - margin;

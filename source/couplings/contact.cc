@@ -38,11 +38,12 @@ void Contact::initialize()
   {
     FaceProjection projection;
     ContactMemory memory;
+    PressingPlace place;
     double nearest;
-    if (faces.holding(group, memory, projection, nearest, 0.) >= 0 &&
-        -projection.gap / group.spacing > worst)
+    if (faces.holding(group, memory, projection, place, nearest, 0.) >= 0 &&
+        place.acting_depth() / group.spacing > worst)
     {
-      worst = -projection.gap / group.spacing;
+      worst = place.acting_depth() / group.spacing;
       initial_node = halo.key(group.slot);
     }
   }
@@ -98,11 +99,12 @@ void Contact::settle()
   {
     FaceProjection projection;
     ContactMemory memory;
+    PressingPlace place;
     double nearest;
     const bool is_inside =
-        faces.holding(group, memory, projection, nearest, 0.) >= 0;
+        faces.holding(group, memory, projection, place, nearest, 0.) >= 0;
     group.memory.side = memory.side;
-    if (!is_inside || projection.gap > -1e-6 * group.spacing)
+    if (!is_inside || place.acting_depth() < 1e-6 * group.spacing)
       group.memory.release();
   }
 }
@@ -111,9 +113,10 @@ void Contact::press(const std::size_t number, const double dt)
 {
   Group &group = groups[number];
   FaceProjection projection;
+  PressingPlace place;
   double nearest;
   const std::ptrdiff_t f =
-      faces.holding(group, group.memory, projection, nearest, dt);
+      faces.holding(group, group.memory, projection, place, nearest, dt);
   if (f < 0)
   {
     group.memory.release();
@@ -123,30 +126,29 @@ void Contact::press(const std::size_t number, const double dt)
   ContactPoint point;
   point.item = number;
   point.first_touched = touched.size();
-  double geometric_depth;
-  touch(group, f, projection, point.normal, geometric_depth);
+  press_between_nodes(group, place);
+  point.first_of_other = touched.size();
+  touch(group, f, projection, point.normal, place.depth);
   point.last_touched = touched.size();
-  const auto against = [&](const AlignedVector<Vec> &velocity)
-  {
-    return velocity[group.slot] -
-           velocity_of_touched(velocity, point.first_touched);
-  };
-  point.velocity = against(halo.velocity);
-  point.first_velocity = against(halo.start_velocity());
-  point.depth = group.memory.effective_depth(geometric_depth,
-                                             2. * point.largest_speed() * dt);
+  point.velocity = velocity_against(halo.velocity, group, point);
+  point.first_velocity = velocity_against(halo.start_velocity(), group, point);
+  const double acting = group.memory.effective_depth(
+      place.acting_depth(), 2. * largest_speed(group, point) * dt);
+  point.fade = place.fade;
+  point.depth = acting / place.fade;
   if (point.depth <= 0.)
   {
     touched.resize(point.first_touched);
     return;
   }
-  point.reduced_mass = reduced_mass(group, point.first_touched);
+  point.reduced_mass = reduced_mass(group, point.first_of_other);
   point.stiffness = options.stable_stiffness(
       group.stiffness, point.reduced_mass, points.steady_step.value);
   point.area = norm_square(group.area_vector) > 0.
                    ? std::max(0., -dot(group.area_vector, point.normal))
                    : group.area;
-  point.largest_friction = shear_limit(group, point.first_touched) * point.area;
+  point.largest_friction =
+      shear_limit(group, point.first_of_other) * point.area;
   point.memory = &group.memory;
   point.pair = shared_work.number_of(halo.key(group.slot).body,
                                      halo.key(faces.corners[f][0]).body);
@@ -154,6 +156,34 @@ void Contact::press(const std::size_t number, const double dt)
   points.add(point);
   penetration_over_spacing =
       std::max(penetration_over_spacing, point.depth / group.spacing);
+}
+
+void Contact::press_between_nodes(const Group &group,
+                                  const PressingPlace &place)
+{
+  if (place.shares.empty())
+    return;
+  // What the node does not take itself.
+  touched.push_back({group.slot, 1., 0});
+  for (const PressingPlace::Share &share : place.shares)
+    touched.push_back({share.slot, -share.weight, 0});
+}
+
+double Contact::largest_speed(const Group &group,
+                              const ContactPoint &point) const
+{
+  // A place that wanders along the surface comes in without a speed of its own.
+  double largest = point.largest_speed();
+  const Vec place[2] = {velocity_of_place(halo.velocity, group, point),
+                        velocity_of_place(halo.start_velocity(), group, point)};
+  for (std::size_t i = point.first_touched; i < point.first_of_other; ++i)
+  {
+    const std::size_t slot = touched[i].slot;
+    largest = std::max(
+        {largest, norm(point.velocity + halo.velocity[slot] - place[0]),
+         norm(point.first_velocity + halo.start_velocity()[slot] - place[1])});
+  }
+  return largest;
 }
 
 void Contact::touch(const Group &group, const std::ptrdiff_t face,
@@ -167,7 +197,6 @@ void Contact::touch(const Group &group, const std::ptrdiff_t face,
   for (int a = 0; a < 4; ++a)
     touched.push_back({faces.corners[face][a], projection.weight[a], 0});
   normal = projection.normal;
-  depth = -projection.gap;
 }
 
 double Contact::reduced_mass(const Group &group, const std::size_t first) const
@@ -185,16 +214,27 @@ double Contact::reduced_mass(const Group &group, const std::size_t first) const
          (group.share / halo.inertia[group.slot] + sum);
 }
 
-Vec Contact::velocity_of_touched(const AlignedVector<Vec> &velocity,
-                                 const std::size_t first) const
+Vec Contact::velocity_of_place(const AlignedVector<Vec> &velocity,
+                               const Group &group,
+                               const ContactPoint &point) const
+{
+  Vec v = velocity[group.slot];
+  for (std::size_t i = point.first_touched; i < point.first_of_other; ++i)
+    v -= touched[i].weight * velocity[touched[i].slot];
+  return v;
+}
+
+Vec Contact::velocity_against(const AlignedVector<Vec> &velocity,
+                              const Group &group,
+                              const ContactPoint &point) const
 {
   Vec v = {};
-  for (std::size_t i = first; i < touched.size(); ++i)
+  for (std::size_t i = point.first_of_other; i < point.last_touched; ++i)
   {
     const TouchedNode &t = touched[i];
     v += t.weight * flipped(velocity[t.slot], t.mirrored);
   }
-  return v;
+  return velocity_of_place(velocity, group, point) - v;
 }
 
 double Contact::shear_limit(const Group &group, const std::size_t first) const
@@ -218,7 +258,7 @@ void Contact::push(const ContactPoint &point)
     const TouchedNode &t = touched[i];
     forces.normal[t.slot] -= flipped(t.weight * normal, t.mirrored);
     forces.friction[t.slot] -= flipped(t.weight * friction, t.mirrored);
-    if (forces.pairs.any())
+    if (forces.pairs.any() && i >= point.first_of_other)
     {
       const Vec part = t.weight * (normal + friction);
       forces.pairs.add(halo, slot, t.slot, part);

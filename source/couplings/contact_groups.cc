@@ -46,14 +46,32 @@ void Contact::search()
 
 namespace
 {
+NodeKey corner_of(const SearchResult &found, const std::size_t face,
+                  const int corner)
+{
+  return {found.faces[face].body, 0, found.faces[face].node[corner]};
+}
+
+/** Corners and numbers of all faces, ascending. */
+std::vector<std::pair<NodeKey, std::size_t>>
+faces_by_node(const SearchResult &found)
+{
+  std::vector<std::pair<NodeKey, std::size_t>> faces;
+  faces.reserve(4 * found.faces.size());
+  for (std::size_t f = 0; f < found.faces.size(); ++f)
+    for (int a = 0; a < 4; ++a)
+      faces.emplace_back(corner_of(found, f, a), f);
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
 /** Mark also the faces around the @p nodes and around the corners of those
     marked, for the normals there; append the corners of all to the nodes. */
 void add_neighbors(const SearchResult &found, std::vector<NodeKey> &nodes,
                    std::vector<char> &is_needed)
 {
-  const auto key = [&](const std::size_t f, const int a) {
-    return NodeKey{found.faces[f].body, 0, found.faces[f].node[a]};
-  };
+  const auto key = [&](const std::size_t f, const int a)
+  { return corner_of(found, f, a); };
   for (std::size_t f = 0; f < is_needed.size(); ++f)
     if (is_needed[f])
       for (int a = 0; a < 4; ++a)
@@ -86,6 +104,7 @@ Contact::keep_relevant(const SearchResult &found,
   for (std::size_t f = 0; f < found.faces.size(); ++f)
     for (const GlobalIndex a : found.faces[f].node)
       is_mine[f] |= owned(found.faces[f].body, a);
+  const std::vector<std::pair<NodeKey, std::size_t>> own = faces_by_node(found);
   std::vector<NodeKey> needed;
   std::vector<KeptNode> kept;
   const auto &c = found.candidates;
@@ -96,8 +115,17 @@ Contact::keep_relevant(const SearchResult &found,
     for (last = first; last < c.size() && c[last].node == c[first].node; ++last)
       for (auto k = c[last].first_face; k < c[last].last_face; ++k)
         is_relevant |= is_mine[found.face_of_candidate[k]];
+    // It may press with a place on one of its own faces.
+    const auto first_own = std::lower_bound(
+        own.begin(), own.end(), std::make_pair(c[first].node, std::size_t(0)));
+    auto last_own = first_own;
+    for (; last_own != own.end() && last_own->first == c[first].node;
+         ++last_own)
+      is_relevant |= is_mine[last_own->second];
     if (!is_relevant)
       continue;
+    for (auto face = first_own; face != last_own; ++face)
+      is_needed[face->second] = 1;
     kept.push_back({first, last});
     needed.push_back(c[first].node);
     for (std::size_t i = first; i < last; ++i)

@@ -182,15 +182,15 @@ std::vector<FaceNodes> gather_faces(const ContactSearch &search,
         continue;
       Box with_neighbors = box;
       with_neighbors.inflate(widest);
-      if (std::any_of(search.pairs.begin(), search.pairs.end(),
-                      [&](const ContactPair &pair)
-                      {
-                        return (pair.faces_of == int(b) &&
-                                with_neighbors.meets(
-                                    extents[pair.nodes_of].nodes)) ||
-                               (pair.nodes_of == int(b) &&
-                                box.meets(extents[pair.faces_of].faces));
-                      }))
+      if (std::any_of(
+              search.pairs.begin(), search.pairs.end(),
+              [&](const ContactPair &pair)
+              {
+                return (pair.faces_of == int(b) &&
+                        with_neighbors.meets(extents[pair.nodes_of].nodes)) ||
+                       (pair.nodes_of == int(b) &&
+                        with_neighbors.meets(extents[pair.faces_of].faces));
+              }))
         mine.push_back(face);
     }
   }

@@ -178,11 +178,11 @@ SmoothNormal FaceStanding::normal_of_closest(const NearFaces &node,
   return mean.value();
 }
 
-std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec n,
-                                 const Side &side, const double reach,
-                                 FaceHit &found, SmoothNormal &normal) const
+std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec p,
+                                 const Vec n, const Side &side,
+                                 const double reach, FaceHit &found,
+                                 SmoothNormal &normal) const
 {
-  const Vec p = halo.position[node.slot];
   const double tie = 1e-9 * node.spacing;
   std::ptrdiff_t first = -1;
   MeanNormal mean;
@@ -228,11 +228,13 @@ std::ptrdiff_t FaceStanding::stand(const NearFaces &node,
   {
     const Vec n = common_normal_of(its, own, is_particle(node));
     FaceHit found;
-    const std::ptrdiff_t f = hit(node, n, side, reach, found, its);
+    const std::ptrdiff_t f =
+        hit(node, halo.position[node.slot], n, side, reach, found, its);
     if (f < 0)
       return repeat == 0 ? -1 : at;
     at = f;
-    projection.gap = projection.along = -found.ahead;
+    projection.gap = projection.along =
+        -found.ahead - bulge_below(node, f, found.weight);
     projection.normal = projection.face_normal = n;
     projection.weight = found.weight;
     projection.distance_square = found.ahead * found.ahead;
@@ -250,10 +252,50 @@ Vec FaceStanding::velocity_against(const NearFaces &node,
   return v;
 }
 
+double FaceStanding::bulge_below(const NearFaces &node, const std::size_t face,
+                                 const std::array<double, 4> &weight) const
+{
+  if (!normals.has_faces(node.slot))
+    return 0.;
+  const double part = may_be_round(normals.of_node(node.slot).spread);
+  return part > 0. ? part * normals.bulge(face, weight) : 0.;
+}
+
+PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
+                                       std::ptrdiff_t &face,
+                                       FaceProjection &standing) const
+{
+  PressingPlace place =
+      find_pressing_place(halo, corners, normals,
+                          {node.slot, -standing.gap, standing.normal,
+                           std::size_t(face), standing.weight});
+  if (place.shares.empty())
+    return place;
+  // Where the place stands, along the normal of both surfaces there.
+  const Vec p = halo.position[node.slot] + place.way;
+  SmoothNormal its = normals.of_face(face, standing.weight);
+  its.direction = place.normal;
+  for (int repeat = 0; repeat < 2; ++repeat)
+  {
+    place.normal = common_normal(its, place.own);
+    FaceHit found;
+    const std::ptrdiff_t below =
+        hit(node, p, place.normal, side,
+            std::abs(place.depth) + 0.5 * node.spacing, found, its);
+    if (below < 0)
+      break;
+    face = below;
+    standing.weight = found.weight;
+  }
+  standing.normal = standing.face_normal = place.normal;
+  return place;
+}
+
 std::ptrdiff_t FaceStanding::try_hold(const NearFaces &node,
                                       const SmoothNormal &own, const Side &side,
                                       const bool may_be_deep,
                                       FaceProjection &projection,
+                                      PressingPlace &place,
                                       const double dt) const
 {
   FaceProjection held;
@@ -273,12 +315,18 @@ std::ptrdiff_t FaceStanding::try_hold(const NearFaces &node,
     if (sideways >= tolerance)
       return -1;
     f = nearest;
+    held.along -= bulge_below(node, f, held.weight);
     held.gap = held.along * (1. - std::max(0., sideways) / tolerance);
     held.normal = common_normal_of(normal_of_closest(node, side, held), own,
                                    is_particle(node));
     held.face_normal = held.normal;
+    place = PressingPlace();
+    place.depth = -held.gap;
+    place.normal = held.normal;
   }
-  if (held.along >= 0.)
+  else
+    place = find_place(node, side, f, held);
+  if (!(place.depth > 0.))
     return -1;
   // The most that the node may have moved against the face in the step.
   if (!may_be_deep &&
@@ -292,17 +340,24 @@ std::ptrdiff_t FaceStanding::try_hold(const NearFaces &node,
 std::ptrdiff_t FaceStanding::holding(const NearFaces &node,
                                      ContactMemory &memory,
                                      FaceProjection &projection,
-                                     double &nearest, const double dt) const
+                                     PressingPlace &place, double &nearest,
+                                     const double dt) const
 {
   FaceProjection any;
   const std::ptrdiff_t of_all = closest(node, any, nullptr);
   nearest = std::sqrt(any.distance_square);
   if (of_all < 0)
     return -1;
+  // How far round surfaces may stand out on both sides.
+  const double margin = normals.has_faces(node.slot) ? most_bulge : 0.;
+  nearest = std::max(0., nearest - margin * node.spacing);
+  double gap = any.gap;
+  if (gap < margin * node.spacing)
+    gap -= bulge_below(node, of_all, any.weight);
   const bool was_inside = memory.depth > 0.,
-             is_inside = any.gap<0., has_side = norm_square(memory.side)> 0.;
+             is_inside = gap<0., has_side = norm_square(memory.side)> 0.;
   std::ptrdiff_t f = -1;
-  if (was_inside || any.gap < rim * node.spacing)
+  if (was_inside || gap < std::max(rim, margin) * node.spacing)
   {
     SmoothNormal own = normals.of_node(node.slot);
     if (norm_square(own.direction) == 0.)
@@ -312,14 +367,14 @@ std::ptrdiff_t FaceStanding::holding(const NearFaces &node,
       f = try_hold(node, own, {memory.side, same_side},
                    was_inside || (is_inside && dot(any.face_normal,
                                                    memory.side) >= same_side),
-                   projection, dt);
+                   projection, place, dt);
     if (f < 0 && has_own)
       f = try_hold(node, own,
                    {-1. * own.direction, least_cosine_of_met_faces(own)},
-                   is_inside, projection, dt);
+                   is_inside, projection, place, dt);
     else if (f < 0 && is_inside)
       f = try_hold(node, own, {any.face_normal, same_side}, true, projection,
-                   dt);
+                   place, dt);
   }
   memory.side = f >= 0 ? projection.face_normal : any.face_normal;
   return f;

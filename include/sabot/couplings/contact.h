@@ -156,10 +156,19 @@ private:
   /** Of the node against what it touches from number @p first on [kg]: the
       part that the model holds of the reduced mass that both have in the whole,
       1/m = 1/m_node + sum w^2/m_touched, so that a model cut at planes of
-      symmetry has the same springs. And mean velocity of what is touched. */
+      symmetry has the same springs. */
   double reduced_mass(const Group &group, const std::size_t first) const;
-  Vec velocity_of_touched(const AlignedVector<Vec> &velocity,
-                          const std::size_t first) const;
+  /** Append to what is touched the corners of the node's own face that share
+      what it presses with, so that all together it is the place's. */
+  void press_between_nodes(const Group &group, const PressingPlace &place);
+  /** Of the place with which the node presses, and that against what it
+      touches [m/s]. */
+  Vec velocity_of_place(const AlignedVector<Vec> &velocity, const Group &group,
+                        const ContactPoint &point) const;
+  Vec velocity_against(const AlignedVector<Vec> &velocity, const Group &group,
+                       const ContactPoint &point) const;
+  /** With which what presses may have come in [m/s]. */
+  double largest_speed(const Group &group, const ContactPoint &point) const;
   /** Of friction per area [Pa], between a node and what it touches. */
   double shear_limit(const Group &group, const std::size_t first) const;
   /** Forces on the node, and their opposite, in parts, on what it touches: the

@@ -35,6 +35,8 @@ struct ContactPoint
   bool is_owned = false;
   /** The coupling's list of what is touched. */
   std::size_t first_touched = 0, last_touched = 0;
+  /** From where on that is the other body's. */
+  std::size_t first_of_other = 0;
 
   // Set by find_forces(). On the node act part * pressing * normal and
   // part * friction; the opposite, in parts, on what it touches.

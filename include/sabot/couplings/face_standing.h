@@ -2,7 +2,7 @@
 #define sabot_couplings_face_standing_h
 
 #include "sabot/couplings/contact_spring.h"
-#include "sabot/couplings/surface_normals.h"
+#include "sabot/couplings/pressing_place.h"
 #include "sabot/kernels/closest_point.h"
 #include "sabot/kernels/face_hit.h"
 
@@ -68,12 +68,14 @@ public:
    * the gap fading to zero there. @p memory: the side follows.
    * @param nearest: distance to the closest of all faces [m]; infinite where
    *   there is none.
-   * @return the face, -1 when none holds it (@p projection is then
-   *   meaningless).
+   * @param place: with which it presses; @p projection is where that stands,
+   *   but for its gap, which is the node's.
+   * @return the face, -1 when none holds it (@p projection and @p place are
+   *   then meaningless).
    */
   std::ptrdiff_t holding(const NearFaces &node, ContactMemory &memory,
-                         FaceProjection &projection, double &nearest,
-                         const double dt) const;
+                         FaceProjection &projection, PressingPlace &place,
+                         double &nearest, const double dt) const;
 
 private:
   /** Faces whose normal has at least this cosine with the direction. */
@@ -100,17 +102,28 @@ private:
   /** Mean normal of the faces of a side that are as close as @p best. */
   SmoothNormal normal_of_closest(const NearFaces &node, const Side &side,
                                  const FaceProjection &best) const;
-  /** Where the line from the node along @p n meets the faces of a side, at the
-      first place. @p mean: of the normals there, for at an edge faces that have
-      little in common say different ones. @return a face; -1: none is met. */
-  std::ptrdiff_t hit(const NearFaces &node, const Vec n, const Side &side,
-                     const double reach, FaceHit &found,
+  /** Where the line from @p p along @p n meets the node's faces of a side, at
+      the first place. @p mean: of the normals there, for at an edge faces that
+     have little in common say different ones. @return a face; -1: none is met.
+   */
+  std::ptrdiff_t hit(const NearFaces &node, const Vec p, const Vec n,
+                     const Side &side, const double reach, FaceHit &found,
                      SmoothNormal &mean) const;
   /** The face of a side that holds the node. @p may_be_deep: it is known to be
       inside; else it must have come through in the last step. */
   std::ptrdiff_t try_hold(const NearFaces &node, const SmoothNormal &own,
                           const Side &side, const bool may_be_deep,
-                          FaceProjection &projection, const double dt) const;
+                          FaceProjection &projection, PressingPlace &place,
+                          const double dt) const;
+  /** SurfaceNormals::bulge() of what a node meets; none for particles, which
+      stand for a volume as wide as facets. */
+  double bulge_below(const NearFaces &node, const std::size_t face,
+                     const std::array<double, 4> &weight) const;
+  /** The place with which a node that stands above @p face presses, which
+      becomes the face below that place; @p standing follows. */
+  PressingPlace find_place(const NearFaces &node, const Side &side,
+                           std::ptrdiff_t &face,
+                           FaceProjection &standing) const;
   std::array<Vec, 4> places(const std::size_t face) const;
   /** A face as many nodes ask for it. */
   struct Shape

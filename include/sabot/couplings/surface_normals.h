@@ -24,6 +24,10 @@ struct SmoothNormal
 /** Whether a node's own normal has a say in the common one. */
 bool is_smooth(const SmoothNormal &own);
 
+/** How far a surface of facets with this spread may be a round one, 0 to 1: as
+    far as an own normal counts. */
+double may_be_round(const double spread);
+
 /**
  * The direction along which two surfaces press on each other, as the outward
  * normal of @p its: the mean of the two normals, each with the inverse of its
@@ -75,12 +79,92 @@ public:
   /** Of face number @p face at the place with these weights of its corners. */
   SmoothNormal of_face(const std::size_t face,
                        const std::array<double, 4> &weight) const;
+  /**
+   * How far the round surface through the corners stands out, along their
+   * normals, from the face at the place x = sum w_a x_a,
+   *
+   *     1/2 sum p_a w_a (x_a - x) . r_a,
+   *
+   * r_a being round normals, p_a the roundness(). Exact for paraboloids, up to
+   * the fourth power of the angles for spheres and cylinders; negative where
+   * the surface is hollow, nothing on planes and at edges [m].
+   */
+  double bulge(const std::size_t face,
+               const std::array<double, 4> &weight) const;
+  /** Curvature K of the round surface at the place with these weights of the
+      corners, symmetric, in its tangent plane; the normal turns by K t along t
+      [1/m]. At corners the least squares of e . K e = -2 e . r_a over the
+      edges and diagonals e from there; positive where it is bulged. */
+  Mat curvature(const std::size_t face,
+                const std::array<double, 4> &weight) const;
+  /** r_a of a corner: the normal of the sphere through it and those around it,
+      exactly so for triangles (Max 1999); of the face itself at edges. */
+  Vec round_normal(const std::size_t face, const int corner) const
+  {
+    return round(face).corner[corner].normal;
+  }
+  /** How far the surface there is taken for a round one, from 0 to 1: where the
+      facets around differ by up to 20 degrees or so, but not crumpled metal. */
+  double roundness(const std::size_t face, const int corner) const
+  {
+    return round(face).corner[corner].part;
+  }
+  /** Axes of the planes of symmetry on which a node lies. */
+  std::vector<unsigned int> axes_across(const std::size_t slot) const;
+  /** Of the face itself; zero where it has no area. */
+  Vec own_normal(const std::size_t face) const { return at_corners(face).face; }
+  /** Whether a node has faces of its own: particles have none. */
+  bool has_faces(const std::size_t slot) const
+  {
+    return first_of_slot[slot + 1] > first_of_slot[slot];
+  }
+  /** Faces around a node, indices of corners: from first to last - 1. */
+  const std::size_t *faces_around(const std::size_t slot, std::size_t &n) const
+  {
+    n = first_of_slot[slot + 1] - first_of_slot[slot];
+    return face_of_slot.data() + first_of_slot[slot];
+  }
 
 private:
+  /** What all places on a face share, found once after the halo has moved. */
+  struct AtCorners
+  {
+    std::uint64_t version = 0; // of the halo
+    Vec face = {};             // its own normal; zero: it has no area
+    std::array<SmoothNormal, 4> normal;
+  };
+  const AtCorners &at_corners(const std::size_t face) const;
+  /** The round surface at a corner. */
+  struct RoundCorner
+  {
+    Vec normal = {};  // r_a
+    double part = 0.; // p_a
+    Mat curvature = Mat::zero();
+  };
+  struct Round
+  {
+    std::uint64_t version = 0;
+    std::array<RoundCorner, 4> corner;
+  };
+  /** Found where it is asked for, which is where surfaces touch. */
+  const Round &round(const std::size_t face) const;
+  /** Of a node whose faces that look as @p like have the mean @p mean. */
+  RoundCorner round_surface(const std::size_t slot, const Vec like,
+                            const SmoothNormal &mean) const;
+  void fit_curvature(const std::size_t slot, const Vec like,
+                     RoundCorner &corner) const;
+  /** Calls @p action(part, the three ways to the other corners, flipped()
+      axes) for the faces, and their images, around a node that look as @p like,
+      with the part in which they do. */
+  template <typename Action>
+  void for_edges(const std::size_t slot, const Vec like,
+                 const Action &action) const;
   /** Sum of the area vectors of the faces around a node, and of their sizes;
       with @p like, a unit normal, of those that look the same way. */
   SmoothNormal around(const std::size_t slot, const Vec *const like) const;
   Vec area_of(const std::size_t face) const;
+  /** Part in which a face with the area vector @p area belongs to @p like. */
+  static double likeness(const Vec area, const Vec like);
 
   const NodeHalo &halo;
   const Corners &corners;
@@ -88,6 +172,8 @@ private:
   std::vector<std::vector<SymmetryPlane>> planes;       // by body
   double nearness = 0.;
   std::vector<double> reach_of_slot;
+  mutable std::vector<AtCorners> cache; // of the faces that were asked for
+  mutable std::vector<Round> rounds;
 };
 } // namespace sabot
 

@@ -1,0 +1,273 @@
+// What of a bent surface presses for a node.
+#include "sabot/couplings/pressing_place.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sabot
+{
+namespace
+{
+// Normals of ends that differ by less are those of a plane, which may have been
+// bent by what presses on it.
+constexpr double straight = 0.01;
+// Cosine to the other surface's normal of faces that may press.
+constexpr double against = -0.5;
+// Depth over bulge up to which the surface around presses, and from which on
+// the node does.
+constexpr double shallow = 2., deep = 4.;
+constexpr double gauss_point[4] = {0.069431844202973712, 0.33000947820757187,
+                                   0.66999052179242813, 0.93056815579702629};
+constexpr double gauss_weight[4] = {0.17392742256872693, 0.32607257743127307,
+                                    0.32607257743127307, 0.17392742256872693};
+
+/** What all faces around a node share. */
+struct Above
+{
+  const NodeHalo &halo;
+  const SurfaceNormals &normals;
+  const NodeAbove &node;
+  // Of the other surface at the node's foot.
+  Vec n = {}; // round normal
+  Mat curvature = Mat::zero();
+
+  Vec turning(const Vec way) const { return curvature * way; }
+};
+
+/** A face around the node, as a square with the node at (0, 0). */
+class BentFace
+{
+public:
+  BentFace(const Above &above, const std::array<std::size_t, 4> &c,
+           const std::size_t face)
+      : above(above), face(face)
+  {
+    first = std::find(c.begin(), c.end(), above.node.slot) - c.begin();
+    x[0] = Vec{};
+    const auto round = [&](const int corner)
+    {
+      return above.normals.roundness(face, corner) *
+             above.normals.round_normal(face, corner);
+    };
+    const Vec r0 = round(first);
+    for (int a = 1; a < 4; ++a)
+    {
+      const int corner = (first + a) & 3;
+      x[a] =
+          above.halo.position[c[corner]] - above.halo.position[above.node.slot];
+      const double turn = dot(x[a], above.turning(x[a])),
+                   bend = dot(x[a], round(corner) - r0);
+      curved[a] = bend + turn;
+      // Of d(s) = d_a + slope s - curved s^2/2.
+      slope[a] = 0.5 * bend - dot(above.n, x[a]);
+    }
+    area = 0.5 * norm(cross(x[2], x[3] - x[1]));
+  }
+  /** How far it stands out between the node and the others. */
+  double bulge() const
+  {
+    double most = 0.;
+    for (int a = 1; a < 4; ++a)
+      most = std::max(most, curved[a] - straight * norm(x[a]));
+    return 0.125 * most;
+  }
+  double size() const { return area; }
+  /** The rectangle in which d may be positive. @return false: nowhere. */
+  bool find_rectangle()
+  {
+    const double p = curved[1], q = curved[3], pq = 0.5 * (curved[2] - p - q),
+                 determinant = p * q - pq * pq;
+    low[0] = low[1] = 0.;
+    high[0] = high[1] = 1.;
+    const double flat = 1e-3 * (std::abs(p) + std::abs(q));
+    if (p > flat && q > flat && determinant > 0.01 * p * q)
+    {
+      const double xi = (q * slope[1] - pq * slope[3]) / determinant,
+                   eta = (p * slope[3] - pq * slope[1]) / determinant,
+                   most = above.node.depth +
+                          0.5 * (slope[1] * xi + slope[3] * eta);
+      narrow(0, xi, most * q / determinant);
+      narrow(1, eta, most * p / determinant);
+    }
+    else if (p > flat && !(q > flat))
+      narrow(0, slope[1] / p,
+             (above.node.depth + 0.5 * slope[1] * slope[1] / p +
+              std::max(0., slope[3] - 0.5 * q)) /
+                 p);
+    else if (q > flat && !(p > flat))
+      narrow(1, slope[3] / q,
+             (above.node.depth + 0.5 * slope[3] * slope[3] / q +
+              std::max(0., slope[1] - 0.5 * p)) /
+                 q);
+    return low[0] < high[0] && low[1] < high[1];
+  }
+  /** Calls @p action(weights of corners, way, part of the face, d > 0). */
+  template <typename Action>
+  void for_points(const Action &action) const
+  {
+    const double width = high[0] - low[0], height = high[1] - low[1];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+      {
+        const double xi = low[0] + width * gauss_point[i],
+                     eta = low[1] + height * gauss_point[j];
+        const double w[4] = {(1. - xi) * (1. - eta), xi * (1. - eta), xi * eta,
+                             (1. - xi) * eta};
+        std::array<double, 4> weight;
+        Vec way = {};
+        for (int a = 0; a < 4; ++a)
+        {
+          weight[(first + a) & 3] = w[a];
+          way += w[a] * x[a];
+        }
+        const double depth = above.node.depth - dot(above.n, way) -
+                             0.5 * dot(way, above.turning(way)) +
+                             above.normals.bulge(face, weight);
+        if (depth > 0.)
+          action(weight, way,
+                 w[0] * gauss_weight[i] * gauss_weight[j] * width * height,
+                 depth);
+      }
+  }
+  std::size_t number() const { return face; }
+
+private:
+  void narrow(const int axis, const double middle, const double two_depth)
+  {
+    const double half = std::sqrt(2. * std::max(0., two_depth));
+    low[axis] = std::max(0., middle - half);
+    high[axis] = std::min(1., middle + half);
+  }
+
+  const Above &above;
+  const std::size_t face;
+  int first;            // corner that is the node
+  std::array<Vec, 4> x; // from the node, which is the first
+  double curved[4] = {0., 0., 0., 0.}, slope[4] = {0., 0., 0., 0.};
+  double area, low[2], high[2];
+};
+
+/** Sums over the places around a node, by w_a max(0, d) dA. */
+struct Pressing
+{
+  double force = 0., energy = 0.; // over k and k/2
+  Vec way = {};
+  SmoothNormal normal;
+
+  void add(const double part, const double depth, const Vec from_node)
+  {
+    force += part * depth;
+    energy += part * depth * depth;
+    way += (part * depth) * from_node;
+  }
+  void add_normal(const double part_of_force, const SmoothNormal &there)
+  {
+    normal.direction += part_of_force * there.direction;
+    normal.spread += part_of_force * there.spread;
+    normal.reach += part_of_force * there.reach;
+  }
+};
+
+bool find_other(Above &above)
+{
+  const NodeAbove &node = above.node;
+  above.curvature = above.normals.curvature(node.face, node.foot);
+  for (int a = 0; a < 4; ++a)
+    above.n += node.foot[a] * above.normals.round_normal(node.face, a);
+  const double length = norm(above.n);
+  if (length > 0.)
+    above.n *= 1. / length;
+  return length > 0.;
+}
+
+/** Adds what a face of the node presses with, of which @p part counts. */
+void press_with(BentFace &face, const std::array<std::size_t, 4> &corners,
+                const SurfaceNormals &normals, const double part, Pressing &all,
+                std::vector<PressingPlace::Share> &shares)
+{
+  if (!face.find_rectangle())
+    return;
+  std::array<double, 4> sum{};
+  double here = 0.;
+  face.for_points(
+      [&](const std::array<double, 4> &weight, const Vec way,
+          const double part_of_face, const double depth)
+      {
+        const double here_part = part * part_of_face * face.size();
+        all.add(here_part, depth, way);
+        here += here_part * depth;
+        for (int a = 0; a < 4; ++a)
+          sum[a] += here_part * depth * weight[a];
+      });
+  if (!(here > 0.))
+    return;
+  for (int a = 0; a < 4; ++a)
+    shares.push_back({corners[a], sum[a]});
+  for (double &weight : sum)
+    weight *= 1. / here;
+  all.add_normal(here, normals.of_face(face.number(), sum));
+}
+} // namespace
+
+PressingPlace
+find_pressing_place(const NodeHalo &halo,
+                    const std::vector<std::array<std::size_t, 4>> &corners,
+                    const SurfaceNormals &normals, const NodeAbove &node)
+{
+  PressingPlace place;
+  place.depth = node.depth;
+  place.normal = node.normal;
+  Above above{halo, normals, node};
+  if (!normals.has_faces(node.slot) || !find_other(above))
+    return place;
+  std::vector<BentFace> faces;
+  std::size_t n_faces;
+  const std::size_t *const around = normals.faces_around(node.slot, n_faces);
+  double bulge = 0., area = 0.;
+  for (std::size_t k = 0; k < n_faces; ++k)
+    if (dot(normals.own_normal(around[k]), above.n) < against)
+    {
+      faces.emplace_back(above, corners[around[k]], around[k]);
+      bulge = std::max(bulge, faces.back().bulge());
+      area += 0.25 * faces.back().size();
+    }
+  if (!(bulge > 0.) || !(node.depth < deep * bulge))
+    return place;
+  // Of crumpled metal, and of facets too coarse for it, nothing is known.
+  double around_part = 0.;
+  for (int a = 0; a < 4; ++a)
+    around_part += node.foot[a] * normals.roundness(node.face, a);
+  around_part *= std::min(1., (deep - node.depth / bulge) / (deep - shallow));
+  if (!(around_part > 0.))
+    return place;
+  Pressing all;
+  for (BentFace &face : faces)
+    press_with(face, corners[face.number()], normals, around_part / area, all,
+               place.shares);
+  if (!(all.force > 0.))
+  {
+    place.shares.clear();
+    return place;
+  }
+  if (node.depth > 0. && around_part < 1.)
+  {
+    all.add(1. - around_part, node.depth, Vec{});
+    all.add_normal((1. - around_part) * node.depth, normals.of_node(node.slot));
+    place.shares.push_back({node.slot, (1. - around_part) * node.depth});
+  }
+  for (PressingPlace::Share &share : place.shares)
+    share.weight *= 1. / all.force;
+  place.way = (1. / all.force) * all.way;
+  place.depth = all.energy / all.force;
+  place.fade = all.force / place.depth;
+  place.own = all.normal;
+  place.own.spread *= 1. / all.force;
+  place.own.reach *= 1. / all.force;
+  for (const unsigned int axis : normals.axes_across(node.slot))
+    place.way[axis] = place.own.direction[axis] = 0.;
+  place.own.direction *= 1. / norm(place.own.direction);
+  place.normal = above.n + above.turning(place.way);
+  place.normal *= 1. / norm(place.normal);
+  return place;
+}
+} // namespace sabot

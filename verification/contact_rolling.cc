@@ -1,0 +1,239 @@
+// Balls and cylinders of facets that slide, roll and graze as round ones do.
+#include "sabot/bodies/rigid/rigid_body.h"
+#include "sabot/couplings/closing_limit.h"
+#include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
+#include "sabot/geometry/round_bodies.h"
+#include "verification/heavy.h"
+#include "verification/problem.h"
+#include "verification/world.h"
+
+#include <cstdio>
+
+namespace sabot
+{
+namespace
+{
+constexpr double R = 5e-3; // [m]
+
+/** What rolls on a flat rigid wall, whose upper face is z = 0, in the direction
+    x, under a weight that grows within a fifth of the time. */
+struct Rolling
+{
+  bool is_ball = true, is_rigid = true;
+  double h = 1e-3, wall = 1e-3; // [m]
+  double mu = 0.;
+  double v = 50., g = 1e6, end = 200e-6;
+  double factor = 0.9;
+};
+
+HexMesh round(const bool is_ball, const double h)
+{
+  HexMesh mesh = is_ball ? make_sphere(R, {{0., 0., 0.}}, h)
+                         : make_cylinder(R, 4e-3, 1, {{0., 0., 0.}}, h);
+  // A vertex is not to be below at the start.
+  const double angle = 0.1, c = std::cos(angle), s = std::sin(angle);
+  double low = 0.;
+  for (auto &p : mesh.nodes)
+  {
+    p = {{c * p[0] + s * p[2], p[1], c * p[2] - s * p[0]}};
+    low = std::min(low, p[2]);
+  }
+  for (auto &p : mesh.nodes)
+    p[2] -= low;
+  return mesh;
+}
+
+void add_round(World &world, const Rolling &s)
+{
+  const Vec gravity = vec(0., 0., -s.g);
+  if (s.is_rigid)
+  {
+    RigidOptions options;
+    options.initial_velocity = {{s.v, 0., 0.}};
+    world.bodies.push_back(std::make_unique<Heavy<RigidBody>>(
+        gravity, 0.2 * s.end, "round", 0, round(s.is_ball, s.h), elastic(),
+        options));
+    return;
+  }
+  FemOptions options;
+  options.initial_velocity = {{s.v, 0., 0.}};
+  options.hourglass = "stiffness";
+  world.bodies.push_back(std::make_unique<Heavy<FemBody>>(
+      gravity, 0.2 * s.end, "round", 0, round(s.is_ball, s.h), elastic(),
+      options));
+}
+
+struct Ride
+{
+  double velocity = 0., sideways = 0., spin = 0.; // over the first speed
+  double rolling = 0.; // 1/(1 + I/(m R^2)) of the nodes' masses
+  // Over the second half of the time.
+  double mean_velocity = 0., mean_spin = 0.;
+  double mean = 0., ripple = 0.; // of the force over the weight
+};
+
+struct State
+{
+  Vec velocity = {};
+  double spin = 0., mass = 0., inertia = 0., radius = 0.; // about y
+};
+
+State state_of(const World &world)
+{
+  const NodalState &n = world.bodies[0]->nodes();
+  Vec center = {}, momentum = {};
+  State s;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    center += n.inertia[i] * n.position[i];
+    momentum += n.inertia[i] * n.velocity[i];
+    s.mass += n.inertia[i];
+  }
+  center *= 1. / s.mass;
+  s.velocity = (1. / s.mass) * momentum;
+  double l = 0.;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    const Vec r = n.position[i] - center;
+    l += n.inertia[i] * cross(r, n.velocity[i] - s.velocity)[1];
+    const double square = r[0] * r[0] + r[2] * r[2];
+    s.inertia += n.inertia[i] * square;
+    s.radius = std::max(s.radius, std::sqrt(square));
+  }
+  s.spin = l / s.inertia;
+  return s;
+}
+
+Ride ride(const Rolling &s)
+{
+  World world;
+  add_round(world, s);
+  RigidOptions fixed;
+  fixed.is_prescribed = true;
+  BoxSpecification b;
+  b.size = {{s.v * s.end + 8e-3, 10e-3, 2e-3}};
+  b.center = {{0.5 * s.v * s.end, 0.1e-3, -1e-3}};
+  b.cell_size = s.wall;
+  world.bodies.push_back(std::make_unique<RigidBody>(
+      "wall", 1, make_graded_box(b), elastic(), fixed));
+  ContactOptions options;
+  if (s.mu > 0.)
+    options.friction = coulomb(s.mu);
+  world.couplings.push_back(std::make_unique<Contact>(
+      "contact", world.pointers(),
+      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, options,
+      MPI_COMM_WORLD));
+  world.couplings.push_back(std::make_unique<ClosingLimit>(
+      world.pointers(), world.couplings, MPI_COMM_WORLD));
+  world.distribute();
+  world.stepper.initialize();
+  double sum = 0., square = 0., time = 0.;
+  Ride r;
+  while (world.stepper.time() < s.end)
+  {
+    const double dt = world.advance(s.factor);
+    const State now = state_of(world);
+    double f = 0.;
+    for (const Resultant &r : world.couplings[0]->resultants())
+      if (r.body == 0)
+        f += r.force[2] / (now.mass * s.g);
+    if (world.stepper.time() > 0.5 * s.end)
+    {
+      sum += f * dt;
+      square += f * f * dt;
+      time += dt;
+      r.mean_velocity += dt * now.velocity[0] / s.v;
+      r.mean_spin += dt * now.spin * now.radius / s.v;
+    }
+  }
+  const State last = state_of(world);
+  r.rolling =
+      1. / (1. + last.inertia / (last.mass * last.radius * last.radius));
+  r.velocity = last.velocity[0] / s.v;
+  r.sideways = last.velocity[1] / s.v;
+  r.spin = last.spin * last.radius / s.v;
+  r.mean_velocity /= time;
+  r.mean_spin /= time;
+  r.mean = sum / time;
+  r.ripple = std::sqrt(std::max(0., square / time - r.mean * r.mean));
+  return r;
+}
+
+void check_sliding(std::vector<Check> &checks, const std::string &what,
+                   const Rolling &s)
+{
+  const Ride r = ride(s);
+  // Nodes and facets alone: ripple of 0.11 to 0.74, 0.02 to 0.3 of the speed as
+  // spin.
+  checks.push_back({what + "no friction: speed over the first", 1., r.velocity,
+                    1e-9, "1", "nothing acts along"});
+  checks.push_back({what + "no friction: sideways over the first", 0.,
+                    r.sideways, 1e-9, "1", "nothing acts along"});
+  checks.push_back({what + "no friction: spin times radius over the speed", 0.,
+                    r.spin, 0.025, "1", "it presses below the center"});
+  checks.push_back({what + "no friction: mean force over the weight", 1.,
+                    r.mean, 0.02, "1", "its height stays"});
+  checks.push_back({what + "no friction: ripple of the force over the weight",
+                    0., r.ripple, 0.25, "1", "round"});
+}
+
+void check_rolling(std::vector<Check> &checks, const std::string &what,
+                   Rolling s)
+{
+  s.mu = 0.5;
+  const Ride r = ride(s);
+  // What sticks is a spring, and the ball swings on it. Friction acts on the
+  // facets, whose middle is up to 2 % nearer to the center.
+  checks.push_back({what + "mean speed once it rolls over the first", r.rolling,
+                    r.mean_velocity, 0.035 * r.rolling, "1",
+                    s.is_ball ? "1/(1 + I/(m R^2)), 5/7 of a fine mesh"
+                              : "1/(1 + I/(m R^2)), 2/3 of a fine mesh"});
+  checks.push_back({what + "mean spin times radius over that", 1.,
+                    r.mean_spin / r.mean_velocity, 0.03, "1", "it rolls"});
+  // Nodes and facets alone: 1.2 to 3.0, they hop.
+  checks.push_back({what + "rolling: ripple of the force over the weight", 0.,
+                    r.ripple, 0.4, "1", "round"});
+  checks.push_back({what + "sideways over the first", 0., r.sideways, 0.02, "1",
+                    "symmetry"});
+}
+
+std::vector<Check> rolling(const std::vector<double> &sizes)
+{
+  std::vector<Check> checks;
+  for (const bool is_ball : {true, false})
+    for (const bool is_rigid : {true, false})
+      for (const double h : sizes)
+      {
+        Rolling s;
+        s.is_ball = is_ball;
+        s.is_rigid = is_rigid;
+        s.h = h;
+        char what[60];
+        std::snprintf(what, sizeof(what), "%s %s, %.1f mm, ",
+                      is_rigid ? "rigid" : "elastic",
+                      is_ball ? "ball" : "cylinder", 1e3 * h);
+        check_sliding(checks, what, s);
+        check_rolling(checks, what, s);
+      }
+  return checks;
+}
+
+std::vector<Check> rolling_quick()
+{
+  return rolling({1.2e-3});
+}
+
+std::vector<Check> rolling_long()
+{
+  return rolling({0.5e-3, 0.8e-3, 1.2e-3});
+}
+
+const RegisterProblem a({"contact-rolling",
+                         "balls and cylinders slide and roll on a flat wall",
+                         "quick", rolling_quick}),
+    b({"contact-rolling-long",
+       "balls and cylinders slide and roll on a flat wall: three meshes",
+       "long", rolling_long});
+} // namespace
+} // namespace sabot
