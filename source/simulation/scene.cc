@@ -147,6 +147,7 @@ std::set<std::pair<int, int>> Scene::build_couplings()
       communicator,
       {},
       {},
+      {},
       {}};
   std::vector<std::unique_ptr<Coupling>> last;
   for (const GrowingZone &zone : growing)
