@@ -181,7 +181,9 @@ void ParticleApproximation::visit_bonds(StateVisitor &visitor,
 {
   if (!stores)
     return;
-  shape_gradient.resize(bonds.n_with_ghosts());
+  // Rows end in places of no bond, which stay zero.
+  if (visitor.is_restoring())
+    shape_gradient.assign(bonds.n_with_ghosts(), Vec{});
   visitor.visit_rows("shape gradient", shape_gradient.data(), bonds.capacity(),
                      rows);
   if (visitor.is_restoring())

@@ -330,7 +330,9 @@ void BondResidual::add_row_sums(const SpgParts &body,
 void BondResidual::visit_bonds(StateVisitor &visitor, const SpgParts &body,
                                const StateRows &rows)
 {
-  residual.resize(body.bonds.n_with_ghosts());
+  // Rows end in places of no bond, which stay zero.
+  if (visitor.is_restoring())
+    residual.assign(body.bonds.n_with_ghosts(), BondVec{});
   visitor.visit_rows("bond residual", residual.data(), body.bonds.capacity(),
                      rows);
   if (visitor.is_restoring())

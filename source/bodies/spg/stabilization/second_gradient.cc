@@ -273,7 +273,9 @@ void SecondGradient::add_linearized(const SpgParts &body,
 void SecondGradient::visit_bonds(StateVisitor &visitor, const SpgParts &body,
                                  const StateRows &rows)
 {
-  bond_gradient.resize(body.bonds.n_with_ghosts());
+  // Rows end in places of no bond, which stay zero.
+  if (visitor.is_restoring())
+    bond_gradient.assign(body.bonds.n_with_ghosts(), Mat::zero());
   visitor.visit_rows("second gradient of bonds", bond_gradient.data(),
                      body.bonds.capacity(), rows);
   if (visitor.is_restoring())
