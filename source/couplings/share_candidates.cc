@@ -75,24 +75,22 @@ void write_letters(const SearchResult &result, const std::size_t first,
                    const int rank, const FacesOfNodes &faces, Letters &letters)
 {
   const auto &c = result.candidates;
-  std::vector<std::size_t> owners = {std::size_t(rank)};
+  // What it may touch, and its own faces, with a place of which it may press.
+  std::vector<std::size_t> concerned;
+  faces.append(c[first].node, concerned);
   for (auto k = c[first].first_face; k < c[last - 1].last_face; ++k)
-  {
-    const FaceNodes &face = result.faces[result.face_of_candidate[k]];
-    for (const GlobalIndex a : face.node)
-      owners.push_back(bodies[face.body]->node_owner[a]);
-  }
+    concerned.push_back(result.face_of_candidate[k]);
+  make_unique(concerned);
+  std::vector<std::size_t> owners = {std::size_t(rank)};
+  for (const std::size_t f : concerned)
+    for (const GlobalIndex a : result.faces[f].node)
+      owners.push_back(bodies[result.faces[f].body]->node_owner[a]);
   make_unique(owners);
   std::vector<std::size_t> around;
   if (owners.size() > 1)
-    faces.append(c[first].node, around);
-  for (auto k = c[first].first_face;
-       owners.size() > 1 && k < c[last - 1].last_face; ++k)
-  {
-    const FaceNodes &face = result.faces[result.face_of_candidate[k]];
-    for (const GlobalIndex a : face.node)
-      faces.append({face.body, 0, a}, around);
-  }
+    for (const std::size_t f : concerned)
+      for (const GlobalIndex a : result.faces[f].node)
+        faces.append({result.faces[f].body, 0, a}, around);
   make_unique(around);
   for (const std::size_t r : owners)
   {
