@@ -178,9 +178,10 @@ TEST_F(Quantities, of_half_a_torn_bar_as_of_the_whole)
   EXPECT_EQ(value(r, "mass"), 2. * pieces[1]["mass"].get<double>());
   EXPECT_NEAR(value(r, "mass"), value(whole, "mass"),
               1e-12 * value(whole, "mass"));
-  // Bonds fail at looks between steps, and the steps are not the same.
+  // Kernels end at the cut, so half a body is another discretization; a factor
+  // of two left out would be off by a half.
   for (const char *const name : {"speed", "absorbed"})
-    EXPECT_NEAR(value(r, name), value(whole, name), 1e-3 * value(whole, name))
+    EXPECT_NEAR(value(r, name), value(whole, name), 5e-3 * value(whole, name))
         << name;
 }
 

@@ -260,7 +260,8 @@ class Scenes(unittest.TestCase):
         done = sabot("run", scene, "-o", out, "--quiet", "--set",
                      "Bodies/bar/Prescribed velocity=0 m/s, 0 m/s, 0 m/s")
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertLess(result(out)["energy_residual_max"], 1e-9)
+        # Round-off, over the energy of a motion of 1e-10 of the speed of sound.
+        self.assertLess(result(out)["energy_residual_max"], 1e-7)
         done = sabot("check", scene, "--set", "Step factor=1.2")
         self.assertIn("warning: the step factor 1.2 is above 1", done.stdout)
 
