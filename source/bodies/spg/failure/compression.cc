@@ -38,7 +38,8 @@ private:
   bool open_cracks(const double shear_modulus, const MaterialBatch &points,
                    const char *is_failed);
   /** The stress across cracks, and the energy that opening them took. */
-  void close_tension(const MaterialBatch &points, const FailedPoints &failed);
+  void close_tension(const Material &law, const MaterialBatch &points,
+                     const FailedPoints &failed);
 
   RepeatedUpdate updates;
   double uncracked_strain[n_symmetric][max_batch_points];
@@ -69,12 +70,14 @@ void Compression::update(const Material &law, const MaterialBatch &points,
     return;
   // Once more, without what opened the cracks; equal for the other points.
   updates.again(law, points, uncracked_strain, points.extra_square);
-  close_tension(points, failed);
+  close_tension(law, points, failed);
 }
 
-void Compression::close_tension(const MaterialBatch &points,
+void Compression::close_tension(const Material &law,
+                                const MaterialBatch &points,
                                 const FailedPoints &failed)
 {
+  const HeatRows rows(law);
   for (std::size_t k = 0; k < points.n; ++k)
   {
     if (!is_cracked[k])
@@ -85,7 +88,10 @@ void Compression::close_tension(const MaterialBatch &points,
       s[c] = points.stress[c][k];
     const double excess = largest_principal(s);
     if (excess > 0.)
+    {
       add_mean_part(s, -excess);
+      rows.add(law, points, k, 0., excess);
+    }
     double loss = 0.;
     for (int c = 0; c < 6; ++c)
     {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace sabot
 {
@@ -135,14 +134,7 @@ bool Friction::slide(const double shear_modulus, const MaterialBatch &points,
 void Friction::finish(const Material &law, const MaterialBatch &points,
                       const FailedPoints &failed)
 {
-  std::optional<std::size_t> temperature; // its row
-  std::size_t row = 0;
-  for (const StateVariable &variable : law.state_variables())
-  {
-    if (variable.name == "temperature")
-      temperature = row;
-    row += variable.is_tensor ? n_symmetric : 1;
-  }
+  const HeatRows rows(law);
   for (std::size_t k = 0; k < points.n; ++k)
   {
     if (share[k] == 1. && sliding[k] == 0.)
@@ -154,14 +146,13 @@ void Friction::finish(const Material &law, const MaterialBatch &points,
         std::sqrt(mises_square(s) +
                   extra[k] * points.return_factor[k] * points.return_factor[k]);
     points.return_factor[k] *= share_of_extra[k];
-    if (mean_part(s) > 0.) // pieces part
+    const double tension = std::max(0., mean_part(s));
+    if (tension > 0.) // pieces part
       for (int c = 0; c < n_symmetric; ++c)
         points.stress[c][k] = 0.;
     const double heat = q * sliding[k]; // per current volume
     failed.friction_work[k] += 2. * failed.half_volume[k] * heat;
-    if (temperature && law.specific_heat() > 0.)
-      points.states[*temperature][k] +=
-          heat * points.jacobian[k] / (law.density() * law.specific_heat());
+    rows.add(law, points, k, heat, tension);
   }
 }
 

@@ -35,4 +35,35 @@ void RepeatedUpdate::again(const Material &law, const MaterialBatch &points,
   rest.extra_square = extra_square;
   law.update(rest);
 }
+
+HeatRows::HeatRows(const Material &law)
+{
+  std::size_t row = 0;
+  for (const StateVariable &variable : law.state_variables())
+  {
+    if (variable.name == "temperature")
+      temperature = row;
+    else if (variable.name == "specific internal energy")
+      energy = row;
+    row += variable.is_tensor ? n_symmetric : 1;
+  }
+}
+
+void HeatRows::add(const Material &law, const MaterialBatch &points,
+                   const std::size_t k, const double heat,
+                   const double tension) const
+{
+  const double J = points.jacobian[k];
+  if (temperature && law.specific_heat() > 0.)
+    points.states[*temperature][k] +=
+        heat * J / (law.density() * law.specific_heat());
+  if (!energy)
+    return;
+  const double trace = points.strain_increment[0][k] +
+                       points.strain_increment[1][k] +
+                       points.strain_increment[2][k],
+               mid = J / (1. + 0.5 * trace);
+  points.states[*energy][k] +=
+      (J * heat - 0.5 * mid * tension * trace) / law.density();
+}
 } // namespace sabot
