@@ -1,5 +1,6 @@
 // Zones of particles: what they contain, and the cut through the mesh.
 #include "sabot/geometry/carving.h"
+#include "sabot/geometry/cell_shape.h"
 
 #include "sabot/base/error.h"
 
@@ -12,10 +13,6 @@ namespace sabot
 {
 namespace
 {
-/** Faces of a cell in VTK order, outward by the right-hand rule. */
-constexpr int face_corners[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                    {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
 using Face = std::array<GlobalIndex, 4>;
 
 Face sorted(Face face)

@@ -29,6 +29,16 @@ std::array<double, 3> center_of(const PlannedBody &planned, const Body &body)
   return center;
 }
 
+/** Of @p body, seen from @p other [m/s]. */
+std::array<double, 3> velocity_against(const PlannedBody &body,
+                                       const PlannedBody &other)
+{
+  std::array<double, 3> v;
+  for (int d = 0; d < 3; ++d)
+    v[d] = body.facts.velocity[d] - other.facts.velocity[d];
+  return v;
+}
+
 /** Taylor's e of rho U^2/Y = e^2/(1 - e). */
 double compression(const double k)
 {
@@ -103,9 +113,7 @@ void ConversionForecast::enter(const Scene &scene, const PhysicsPlan &physics,
 {
   const ImpactFacts &impact = physics.impact;
   const PlannedBody &p = physics.bodies[impact.projectile];
-  std::array<double, 3> v;
-  for (int d = 0; d < 3; ++d)
-    v[d] = p.facts.velocity[d] - host.facts.velocity[d];
+  const auto v = velocity_against(p, host);
   const double speed = std::sqrt(dot(v, v));
   const int axis = impact.axis;
   const auto center = center_of(p, *scene.bodies[impact.projectile]);
@@ -175,9 +183,7 @@ void ConversionForecast::upset(const Scene &scene, const PhysicsPlan &physics,
 {
   const ImpactFacts &impact = physics.impact;
   const PlannedBody &other = physics.bodies[impact.target];
-  std::array<double, 3> v;
-  for (int d = 0; d < 3; ++d)
-    v[d] = host.facts.velocity[d] - other.facts.velocity[d];
+  const auto v = velocity_against(host, other);
   const double speed = std::sqrt(dot(v, v));
   const int axis = impact.axis;
   direction.fill(0.);

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import unittest
 
+from scene_text import section
+
 SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
@@ -23,16 +25,6 @@ ROD = {"Size": "4 mm, 4 mm, 4 mm", "Center": "0 mm, 0 mm, 2.01 mm",
        "Initial velocity": "0 m/s, 0 m/s, -300 m/s"}
 BLOCK = {"Size": "4 mm, 4 mm, 4 mm", "Cell size": "2 mm", "Material": "steel"}
 IMPACT = {"impact": {"Bodies": "plate, rod"}}
-
-
-def section(name, entries, indent=""):
-    text = "%ssubsection %s\n" % (indent, name)
-    for key, value in entries.items():
-        if isinstance(value, dict):
-            text += section(key, value, indent + "  ")
-        else:
-            text += "%s  set %s = %s\n" % (indent, key, value)
-    return text + indent + "end\n"
 
 
 def scene(bodies, couplings=None, materials=None, listed=None, **entries):

@@ -159,17 +159,22 @@ class Scenes(unittest.TestCase):
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
 
-    def test_planes_of_symmetry_hold_everything(self):
-        scene = os.path.join(SOURCE, "tests/scenes/planes.prm")
+    def same_on_ranks(self, scene, name):
+        """Runs it on 1, 2 and 3 ranks. @return the last folder, the history."""
         histories = []
         for ranks in (1, 2, 3):
-            out = folder("planes%d" % ranks)
+            out = folder("%s%d" % (name, ranks))
             done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
             self.assertEqual(done.returncode, 0, done.stdout)
             with open(os.path.join(out, "history.h5"), "rb") as file:
                 histories.append(file.read())
         self.assertEqual(histories[0], histories[1])
         self.assertEqual(histories[0], histories[2])
+        return out, histories[0]
+
+    def test_planes_of_symmetry_hold_everything(self):
+        scene = os.path.join(SOURCE, "tests/scenes/planes.prm")
+        out, _ = self.same_on_ranks(scene, "planes")
         r = result(out)
         # All of the block is loose, and the others came back.
         self.assertGreater(r["couplings"]["debris"]["loose_particles"], 200)
@@ -439,15 +444,7 @@ class Scenes(unittest.TestCase):
 
     def test_loads_on_a_body_whose_cells_turn(self):
         scene = os.path.join(SOURCE, "tests/scenes/growing.prm")
-        histories = []
-        for ranks in (1, 2, 3):
-            out = folder("growing%d" % ranks)
-            done = sabot("run", scene, "-o", out, "--quiet", ranks=ranks)
-            self.assertEqual(done.returncode, 0, done.stdout)
-            with open(os.path.join(out, "history.h5"), "rb") as file:
-                histories.append(file.read())
-        self.assertEqual(histories[0], histories[1])
-        self.assertEqual(histories[0], histories[2])
+        out, history = self.same_on_ranks(scene, "growing")
         r = result(out)
         n = r["found_zones"]["zone"]["particles"]
         self.assertGreater(n, 3 * 36)  # more than those of the start
@@ -468,7 +465,7 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(total[0] - 10. * mass, pull["impulse"][0],
                                delta=1e-9 * pull["impulse"][0])
         self.assertGreater(pull["force"][0], 0.8 * 300e6 * 25e-6)
-        self.resumes_as(histories[0], "growing-parted", 0.5 * r["steps"], scene)
+        self.resumes_as(history, "growing-parted", 0.5 * r["steps"], scene)
         # Nor do cells at a tie turn, not even where the zone starts.
         tied = os.path.join(WORK, "growing-tied.prm")
         with open(tied, "w") as file:

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import unittest
 
+from scene_text import section
+
 SABOT, SOURCE, WORK = (os.path.abspath(path) for path in sys.argv[1:4])
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
@@ -25,16 +27,6 @@ UP = {"Type": "prescribed motion", "Body": "block", "Faces": "+z",
       "Velocity": "0 m/s, 0 m/s, 5 m/s"}
 TABLE = dict(PRESSURE, Course="table", Times="0 us, 1 us, 2 us",
              Factors="0, 1, 0")
-
-
-def section(name, entries, indent=""):
-    text = "%ssubsection %s\n" % (indent, name)
-    for key, value in entries.items():
-        if isinstance(value, dict):
-            text += section(key, value, indent + "  ")
-        else:
-            text += "%s  set %s = %s\n" % (indent, key, value)
-    return text + indent + "end\n"
 
 
 def scene(block, loads=None, couplings=None, bodies=None, more=""):

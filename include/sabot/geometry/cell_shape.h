@@ -10,6 +10,11 @@ namespace sabot
 /** Corners of a hexahedron in VTK order. */
 using CellCorners = std::array<Vec, 8>;
 
+/** Faces of a hexahedron in VTK order, outward by the right-hand rule. */
+inline constexpr int face_corners[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7},
+                                           {0, 1, 5, 4}, {1, 2, 6, 5},
+                                           {2, 3, 7, 6}, {3, 0, 4, 7}};
+
 /** Mean of the corners. */
 Vec middle(const CellCorners &x);
 

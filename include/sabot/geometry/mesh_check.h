@@ -1,6 +1,7 @@
 #ifndef sabot_geometry_mesh_check_h
 #define sabot_geometry_mesh_check_h
 
+#include "sabot/geometry/cell_shape.h"
 #include "sabot/geometry/file_mesh.h"
 
 #include <optional>
@@ -27,6 +28,9 @@ void keep_part(FileMesh &mesh, const MeshFile &file, const MeshWish &wish);
 
 /** Makes one of vertices that are nearer than @p distance (file's unit). */
 void join_vertices(FileMesh &mesh, const double distance);
+
+/** Of cell @p c, in the file's unit. */
+CellCorners corners_of(const FileMesh &mesh, const std::size_t c);
 
 /** A cell and one of another piece in which a part of it lies, if there are
     such: by its middle and points towards its corners, deeper than a tenth of

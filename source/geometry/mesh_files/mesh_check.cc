@@ -13,13 +13,7 @@
 
 namespace sabot
 {
-namespace
-{
-/** Faces of a cell in VTK order, outward by the right-hand rule. */
-constexpr int face_corners[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                    {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
-CellCorners corners(const FileMesh &mesh, const std::size_t c)
+CellCorners corners_of(const FileMesh &mesh, const std::size_t c)
 {
   CellCorners x;
   for (int a = 0; a < 8; ++a)
@@ -30,6 +24,8 @@ CellCorners corners(const FileMesh &mesh, const std::size_t c)
   return x;
 }
 
+namespace
+{
 /** "(1, 2, 3) mm", of a place in the file's unit. */
 std::string place(const Vec &x, const MeshWish &wish)
 {
@@ -71,7 +67,7 @@ private:
   std::string cell(const std::size_t c) const
   {
     return "cell " + mesh.name_of_cell(c) + " at " +
-           place(middle(corners(mesh, c)), wish);
+           place(middle(corners_of(mesh, c)), wish);
   }
 
   void check_numbers() const
@@ -100,7 +96,7 @@ private:
     std::size_t n_turned = 0;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     {
-      if (!(middle_jacobian(corners(mesh, c)) < 0.))
+      if (!(middle_jacobian(corners_of(mesh, c)) < 0.))
         continue;
       auto &nodes = mesh.cells[c];
       std::swap_ranges(nodes.begin(), nodes.begin() + 4, nodes.begin() + 4);
@@ -118,7 +114,7 @@ private:
     Vec where = {};
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     {
-      const CellCorners x = corners(mesh, c);
+      const CellCorners x = corners_of(mesh, c);
       if (!(least_inner_jacobian(x) > 0.))
         file.refuse(cell(c) +
                     " is inverted or flat: its Jacobian is not positive "
@@ -152,7 +148,7 @@ private:
   {
     double shortest = std::numeric_limits<double>::max();
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      shortest = std::min(shortest, shortest_edge(corners(mesh, c)));
+      shortest = std::min(shortest, shortest_edge(corners_of(mesh, c)));
     constexpr double fraction = 1e-3;
     nearness = fraction * shortest;
     first = first_near(mesh.vertices, nearness);

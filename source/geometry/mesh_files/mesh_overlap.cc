@@ -9,21 +9,6 @@ namespace sabot
 {
 namespace
 {
-/** Faces of a cell in VTK order, outward by the right-hand rule. */
-constexpr int face_corners[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                    {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
-CellCorners corners(const FileMesh &mesh, const std::size_t c)
-{
-  CellCorners x;
-  for (int a = 0; a < 8; ++a)
-  {
-    const auto &p = mesh.vertices[mesh.cells[c][a]];
-    x[a] = vec(p[0], p[1], p[2]);
-  }
-  return x;
-}
-
 /** Whether @p p lies in the cell, deeper than faceted round surfaces do that
     touch each other: by the planes through the middles of its faces. */
 bool is_deep_inside(const Vec &p, const CellCorners &x)
@@ -116,7 +101,7 @@ overlapping_cells(const FileMesh &mesh, const std::vector<std::size_t> &piece)
   std::vector<FileIndex> cell_of;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
-    const CellCorners x = corners(mesh, c);
+    const CellCorners x = corners_of(mesh, c);
     const Vec center = middle(x);
     points.push_back(center);
     for (const Vec &corner : x)
@@ -127,7 +112,7 @@ overlapping_cells(const FileMesh &mesh, const std::vector<std::size_t> &piece)
   std::pair<FileIndex, FileIndex> found;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
-    const CellCorners x = corners(mesh, c);
+    const CellCorners x = corners_of(mesh, c);
     Vec low = x[0], high = x[0];
     for (const Vec &corner : x)
       for (int d = 0; d < 3; ++d)

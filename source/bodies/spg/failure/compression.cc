@@ -77,7 +77,6 @@ void Compression::close_tension(const Material &law,
                                 const MaterialBatch &points,
                                 const FailedPoints &failed)
 {
-  const HeatRows rows(law);
   for (std::size_t k = 0; k < points.n; ++k)
   {
     if (!is_cracked[k])
@@ -90,7 +89,7 @@ void Compression::close_tension(const Material &law,
     if (excess > 0.)
     {
       add_mean_part(s, -excess);
-      rows.add(law, points, k, 0., excess);
+      updates.add_heat(law, points, k, 0., excess);
     }
     double loss = 0.;
     for (int c = 0; c < 6; ++c)

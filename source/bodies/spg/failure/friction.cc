@@ -134,7 +134,6 @@ bool Friction::slide(const double shear_modulus, const MaterialBatch &points,
 void Friction::finish(const Material &law, const MaterialBatch &points,
                       const FailedPoints &failed)
 {
-  const HeatRows rows(law);
   for (std::size_t k = 0; k < points.n; ++k)
   {
     if (share[k] == 1. && sliding[k] == 0.)
@@ -152,7 +151,7 @@ void Friction::finish(const Material &law, const MaterialBatch &points,
         points.stress[c][k] = 0.;
     const double heat = q * sliding[k]; // per current volume
     failed.friction_work[k] += 2. * failed.half_volume[k] * heat;
-    rows.add(law, points, k, heat, tension);
+    updates.add_heat(law, points, k, heat, tension);
   }
 }
 

@@ -8,12 +8,7 @@ namespace sabot
 void RepeatedUpdate::first(const Material &law, const MaterialBatch &points)
 {
   if (old_states.empty())
-  {
-    std::size_t n_rows = 0;
-    for (const StateVariable &variable : law.state_variables())
-      n_rows += variable.is_tensor ? n_symmetric : 1;
-    old_states.resize(n_rows * max_batch_points);
-  }
+    find_rows(law);
   for (int c = 0; c < n_symmetric; ++c)
     std::copy_n(points.stress[c], points.n, old_stress[c]);
   for (std::size_t s = 0; s * max_batch_points < old_states.size(); ++s)
@@ -36,7 +31,7 @@ void RepeatedUpdate::again(const Material &law, const MaterialBatch &points,
   law.update(rest);
 }
 
-HeatRows::HeatRows(const Material &law)
+void RepeatedUpdate::find_rows(const Material &law)
 {
   std::size_t row = 0;
   for (const StateVariable &variable : law.state_variables())
@@ -47,11 +42,12 @@ HeatRows::HeatRows(const Material &law)
       energy = row;
     row += variable.is_tensor ? n_symmetric : 1;
   }
+  old_states.resize(row * max_batch_points);
 }
 
-void HeatRows::add(const Material &law, const MaterialBatch &points,
-                   const std::size_t k, const double heat,
-                   const double tension) const
+void RepeatedUpdate::add_heat(const Material &law, const MaterialBatch &points,
+                              const std::size_t k, const double heat,
+                              const double tension) const
 {
   const double J = points.jacobian[k];
   if (temperature && law.specific_heat() > 0.)

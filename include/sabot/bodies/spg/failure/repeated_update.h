@@ -26,32 +26,30 @@ public:
              const double (*strain)[max_batch_points],
              const double *extra_square);
 
-  /** Cauchy stress at the start of the step, in the frame of its end [Pa]. */
-  double old_stress[n_symmetric][max_batch_points];
-
-private:
-  std::vector<double> old_states; // [row][max_batch_points]
-};
-
-/** Rows of a law's states that follow heat; nothing where it has none. */
-struct HeatRows
-{
-  std::optional<std::size_t> temperature, energy; // of an equation of state
-
-  explicit HeatRows(const Material &law);
   /**
-   * What a rule does to a point after the law: @p heat [J/m^3 of now], and @p
-   * tension [Pa], a mean stress that the law has in its energy and the rule
-   * takes away. The equation of state's energy gets the heat, and without the
-   * tension's half of the work,
+   * After the law: @p heat [J/m^3 of now] to a point, and @p tension [Pa], a
+   * mean stress that the law has in its energy and the rule takes away. The
+   * temperature follows the heat; the equation of state's energy, too, and
+   * without the tension's half of the work,
    *
    *   rho_0 de = J heat - J_mid tension tr d_eps/2.
    *
    * Left in, it would heat metal that gapes by the work of a stress that is not
-   * there, and grow without bound as its volume goes up and down. Local.
+   * there, and grow without bound as its volume goes up and down.
    */
-  void add(const Material &law, const MaterialBatch &points,
-           const std::size_t k, const double heat, const double tension) const;
+  void add_heat(const Material &law, const MaterialBatch &points,
+                const std::size_t k, const double heat,
+                const double tension) const;
+
+  /** Cauchy stress at the start of the step, in the frame of its end [Pa]. */
+  double old_stress[n_symmetric][max_batch_points];
+
+private:
+  void find_rows(const Material &law);
+
+  std::vector<double> old_states; // [row][max_batch_points]
+  /** Rows that follow heat; nothing where the law has none. */
+  std::optional<std::size_t> temperature, energy; // of an equation of state
 };
 
 /** Mean of the normal components of a stress or strain. */
