@@ -107,6 +107,7 @@ void add_fragments(const Body &body, ordered_json &result)
     const Fragment &piece = fragments[f];
     result["fragments"].push_back({{"particles", piece.n_particles},
                                    {"mass", piece.mass},
+                                   {"copies", piece.copies},
                                    {"velocity", piece.velocity}});
   }
 }

@@ -19,6 +19,9 @@ namespace sabot
 Scene::Scene(const ParameterFile &file, MPI_Comm communicator)
     : communicator(communicator)
 {
+  if (file.is_set("Scene") && !file.is_set("List of bodies"))
+    throw InputError("Scene", "this is a study, which varies a scene; run it "
+                              "by \"sabot study\", or run the scene itself");
   declare(prm, &file);
   file.parse_into(prm, [](Parameters &all) { declare(all, nullptr); });
   check_names(prm);

@@ -271,6 +271,10 @@ void StudyFile::read(const ParameterFile &file)
   const std::vector<std::string> names = file.subsections("Parameters"),
                                  quantity_names =
                                      file.subsections("Quantities");
+  if (file.is_set("List of bodies") && !file.is_set("Scene"))
+    throw InputError("List of bodies",
+                     "this is a scene; run it by \"sabot run\", or name it as "
+                     "the \"Scene\" of a study file");
   Parameters prm;
   declare(prm, names, quantity_names);
   file.parse_into(prm);

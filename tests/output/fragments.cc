@@ -155,6 +155,48 @@ TEST_F(Torn, in_two_between_the_tied_particles_and_the_next)
               result["bodies"]["weight"]["velocity"][0].get<double>(), 20.);
 }
 
+/** A quarter of a bar of 4 x 4 mm, and one that planes of symmetry do not cut.
+ */
+TEST_F(Torn, pieces_that_planes_of_symmetry_cut_are_counted_whole)
+{
+  const auto pieces = [&](const std::vector<std::string> &overrides)
+  {
+    const ParameterFile file(SABOT_SOURCE_DIR "/tests/scenes/torn.prm",
+                             overrides);
+    Scene scene(file, MPI_COMM_WORLD);
+    EXPECT_EQ(sabot::Run(scene, folder, true, MPI_COMM_WORLD).execute(),
+              ExitCode::done);
+    nlohmann::json all;
+    std::ifstream(folder + "/result.json") >> all;
+    std::filesystem::remove_all(folder);
+    return all["bodies"]["bar"]["fragments"];
+  };
+  const auto whole = pieces({"Bodies/bar/Size=10 mm, 4 mm, 4 mm",
+                             "Bodies/weight/Size=4 mm, 4 mm, 4 mm"});
+  const auto quarter = pieces({"Bodies/bar/Size=10 mm, 2 mm, 2 mm",
+                               "Bodies/weight/Size=4 mm, 2 mm, 2 mm",
+                               "Bodies/bar/Center=-5 mm, 1 mm, 1 mm",
+                               "Bodies/weight/Center=2 mm, 1 mm, 1 mm",
+                               "Bodies/bar/Symmetry faces=-y, -z",
+                               "Bodies/weight/Symmetry faces=-y, -z"});
+  ASSERT_EQ(whole.size(), 2u);
+  ASSERT_EQ(quarter.size(), 2u);
+  for (std::size_t p = 0; p < 2; ++p)
+  {
+    const double mass = whole[p]["mass"], speed = whole[p]["velocity"][0];
+    EXPECT_NEAR(quarter[p]["mass"].get<double>(), mass, 1e-12 * mass);
+    EXPECT_NEAR(quarter[p]["velocity"][0].get<double>(), speed, 0.01 * 250.);
+    for (const int d : {1, 2})
+    {
+      EXPECT_EQ(quarter[p]["velocity"][d], 0.);
+      EXPECT_NEAR(whole[p]["velocity"][d].get<double>(), 0., 0.01 * 250.);
+    }
+    EXPECT_EQ(quarter[p]["copies"], 1);
+    EXPECT_EQ(whole[p]["copies"], 1);
+  }
+  EXPECT_GT(whole[1]["velocity"][0].get<double>(), 100.);
+}
+
 TEST_F(Torn, to_splinters)
 {
   const std::map<double, Sum> sums =

@@ -5,43 +5,16 @@ Results that are not lost, the record in log.txt, runs that go on after their
 end, and forces and states over time.
 """
 import glob
-import json
 import math
 import os
 import re
 import shutil
-import subprocess
 import sys
 import unittest
 
+from program import BAR, QUICK, SOURCE, WORK, folder, result, sabot
 from vtu import read_vtu
 
-SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
-QUICK = os.path.join(SOURCE, "prm/perforation/quick.prm")
-BAR = os.path.join(SOURCE, "tests/scenes/bar.prm")
-# OpenMPI refuses root unless told twice.
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-
-
-def sabot(*arguments, ranks=1):
-    command = [SABOT, *arguments]
-    if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
-    return subprocess.run(command, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True,
-                          timeout=600, env=ENVIRONMENT)
-
-
-def folder(name):
-    path = os.path.join(WORK, name)
-    shutil.rmtree(path, ignore_errors=True)
-    return path
-
-
-def result(path):
-    with open(os.path.join(path, "result.json")) as file:
-        return json.load(file)
 
 
 def read(*names):

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import unittest
 
-from run_scenes import SABOT, SOURCE, WORK, folder, result, sabot
+from program import BAR, SOURCE, WORK, folder, result, sabot
 
 CRITERIA = {"damage": "Critical damage = 0.1",
             "effective plastic strain": "Critical effective plastic strain = 0.05",

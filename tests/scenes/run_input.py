@@ -7,15 +7,12 @@ one line each; and what looks odd but is right passes without a word.
 import json
 import os
 import shutil
-import subprocess
 import sys
 import unittest
 
+from program import SOURCE, WORK, result, sabot
 from scene_text import section
 
-SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 
 STEEL = {"Density": "7830 kg/m^3", "Young's modulus": "206 GPa"}
 PLATE = {"Size": "20 mm, 20 mm, 2 mm", "Center": "0 mm, 0 mm, -1 mm",
@@ -47,12 +44,6 @@ def write(name, text):
     with open(path, "wb") as file:
         file.write(text if isinstance(text, bytes) else text.encode())
     return path
-
-
-def sabot(*arguments, **options):
-    return subprocess.run([SABOT, *arguments], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True,
-                          timeout=300, env=ENVIRONMENT, **options)
 
 
 class Input(unittest.TestCase):
@@ -507,6 +498,21 @@ end
         with open(os.path.join(out, "result.json")) as file:
             self.assertEqual(["warning: " + w for w in
                               json.load(file)["warnings"]], said)
+
+    def test_a_study_is_no_scene_and_a_scene_no_study(self):
+        for command, file, entry, other in (
+                ("run", "prm/studies/zone.prm", "zone.prm:4: Scene", "study"),
+                ("check", "prm/studies/zone.prm", "zone.prm:4: Scene", "study"),
+                ("plan", "prm/studies/zone.prm", "zone.prm:4: Scene", "study"),
+                ("study", "prm/perforation/quick.prm", "List of bodies", "run")):
+            done = sabot(command, os.path.join(SOURCE, file),
+                         *(() if command in ("check", "plan")
+                           else ("-o", os.path.join(WORK, "none"))))
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertEqual(len(done.stdout.splitlines()), 1, done.stdout)
+            self.assertIn(entry, done.stdout)
+            self.assertIn('by "sabot %s"' % other, done.stdout)
+            self.assertFalse(os.path.exists(os.path.join(WORK, "none")))
 
 
 if __name__ == "__main__":

@@ -8,13 +8,11 @@ goes on with other numbers of ranks and has to end with the same bytes.
 import json
 import os
 import shutil
-import subprocess
 import sys
 import unittest
 
-SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+from program import SOURCE, WORK, sabot
+
 # Name, scene, ranks that write, ranks that go on, when, settings.
 SCENES = (
     ("contact, debris, broken bonds", "prm/perforation/quick.prm",
@@ -48,15 +46,6 @@ SCENES = (
     ("materials, heat conduction", "tests/scenes/materials.prm", 3, (2,), 0.5,
      ()),
 )
-
-
-def sabot(*arguments, ranks=1):
-    command = [SABOT, *arguments]
-    if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
-    return subprocess.run(command, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True,
-                          timeout=600, env=ENVIRONMENT)
 
 
 def read(path, name):

@@ -17,44 +17,9 @@ import sys
 import time
 import unittest
 
+from program import (BAR, ENVIRONMENT, QUICK, SABOT, SOURCE, WORK, descendants,
+                     folder, result, sabot)
 from vtu import read_vtu
-
-SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
-QUICK = os.path.join(SOURCE, "prm/perforation/quick.prm")
-# OpenMPI refuses root unless told twice.
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-BAR = os.path.join(SOURCE, "tests/scenes/bar.prm")
-
-
-def sabot(*arguments, ranks=1, timeout=600):
-    command = [SABOT, *arguments]
-    if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
-    return subprocess.run(command, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True,
-                          timeout=timeout, env=ENVIRONMENT)
-
-
-def folder(name):
-    path = os.path.join(WORK, name)
-    shutil.rmtree(path, ignore_errors=True)
-    return path
-
-
-def result(path):
-    with open(os.path.join(path, "result.json")) as file:
-        return json.load(file)
-
-
-def descendants(pid):
-    """Processes that @p pid started, and theirs."""
-    try:
-        with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
-            children = [int(child) for child in file.read().split()]
-    except FileNotFoundError:  # it has ended
-        return []
-    return children + [d for child in children for d in descendants(child)]
 
 
 def fem_bar(size="5 mm, 5 mm, 5 mm", geometry="box", entry="Cell size",

@@ -11,9 +11,7 @@ import subprocess
 import sys
 import unittest
 
-SABOT, SOURCE, WORK = sys.argv[1], sys.argv[2], sys.argv[3]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+from program import ENVIRONMENT, SABOT, SOURCE, WORK
 
 # Entry, value, words of the one line that refuses it.
 REFUSED = (

@@ -11,11 +11,9 @@ import subprocess
 import sys
 import unittest
 
+from program import ENVIRONMENT, SABOT, WORK
 from scene_text import section
 
-SABOT, SOURCE, WORK = (os.path.abspath(path) for path in sys.argv[1:4])
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 
 BLOCK = {"Size": "4 mm, 4 mm, 4 mm", "Cell size": "2 mm", "Material": "steel"}
 FLYING = dict(BLOCK, Center="0 mm, 0 mm, 4.01 mm",

@@ -14,7 +14,8 @@ import sys
 import time
 import unittest
 
-from run_scenes import BAR, ENVIRONMENT, SABOT, SOURCE, descendants, folder, result, sabot
+from program import (BAR, ENVIRONMENT, SABOT, SOURCE, descendants, folder, result,
+                     sabot)
 
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU", "SIGUSR1", "SIGUSR2")
 # A run without end: it writes fields, rows and checkpoints all the time.

@@ -125,13 +125,15 @@ struct DebrisView
 };
 
 /** A connected piece of a body whose bonds may fail. By Body::fragments(); a
-    particle without bonds is a fragment of its own. */
+    particle without bonds is a fragment of its own. A piece that a plane of
+    symmetry cuts is the whole piece, of which the model holds a part. */
 struct Fragment
 {
   GlobalIndex label = -1; // least number of a particle in it
-  GlobalIndex n_particles = 0;
-  double mass = 0.;                 // [kg]
-  std::array<double, 3> velocity{}; // of the center of mass [m/s]
+  GlobalIndex n_particles = 0;      // of the model
+  double mass = 0.;                 // of the whole piece [kg]
+  std::array<double, 3> velocity{}; // of its center of mass [m/s]
+  int copies = 1; // it and its mirror images in planes that do not cut it
 };
 
 /** Damage and flow at one place of a body's material. For the verdict on

@@ -75,7 +75,9 @@ std::vector<GlobalIndex> SpgViews::piece_labels() const
 
 std::vector<Fragment> SpgViews::connected_pieces() const
 {
-  return find_fragments(body.nodes, piece_labels(), communicator);
+  constexpr double within = 1e-3; // of a spacing; particles are one apart
+  return find_fragments(body.nodes, piece_labels(), surface.planes(),
+                        within * body.kernel.mean_spacing(), communicator);
 }
 
 void SpgViews::list_memory(MemoryTable &table) const

@@ -40,8 +40,7 @@ public:
     const std::vector<Fragment> all = pieces.connected_pieces();
     for (std::size_t i = 1; i < all.size(); ++i)
       if (all[i].n_particles > 1 && along(direction, all[i]) > 0.)
-        return asks_mass ? copies_by_symmetry(direction.body) * all[i].mass
-                         : along(direction, all[i]);
+        return asks_mass ? all[i].mass : along(direction, all[i]);
     return 0.;
   }
   std::string unit() const override { return asks_mass ? "kg" : "m/s"; }

@@ -8,6 +8,7 @@
 #include "sabot/bodies/spg/failure/bond_failure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -88,7 +89,20 @@ struct Sums
 {
   GlobalIndex n = 0;
   ExactSum mass, momentum[3];
+  unsigned int planes = 0; // bits of those that cut the piece
 };
+
+/** Bits of the planes in which a particle lies. */
+unsigned int planes_at(const Vec &reference,
+                       const std::vector<SymmetryPlane> &planes,
+                       const double tolerance)
+{
+  unsigned int bits = 0;
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    if (std::abs(reference[planes[p].axis] - planes[p].coordinate) < tolerance)
+      bits |= 1u << p;
+  return bits;
+}
 
 /** Add up the sums of all ranks: all learn all labels, then add in the order of
     labels. */
@@ -105,24 +119,54 @@ void reduce(std::map<GlobalIndex, Sums> &local, MPI_Comm communicator)
     local[l];
   std::vector<ExactSum *> sums;
   std::vector<GlobalIndex> sizes;
+  std::vector<unsigned int> planes;
   for (auto &entry : local)
   {
     sums.push_back(&entry.second.mass);
     for (ExactSum &s : entry.second.momentum)
       sums.push_back(&s);
     sizes.push_back(entry.second.n);
+    planes.push_back(entry.second.planes);
   }
   ExactSum::reduce(sums, communicator);
   MPI_Allreduce(MPI_IN_PLACE, sizes.data(), sizes.size(), MPI_INT64_T, MPI_SUM,
                 communicator);
+  MPI_Allreduce(MPI_IN_PLACE, planes.data(), planes.size(), MPI_UNSIGNED,
+                MPI_BOR, communicator);
   std::size_t k = 0;
   for (auto &entry : local)
-    entry.second.n = sizes[k++];
+  {
+    entry.second.n = sizes[k];
+    entry.second.planes = planes[k++];
+  }
+}
+
+/** The whole piece of what the model holds of it. */
+Fragment piece_of(const GlobalIndex label, const Sums &sums,
+                  const std::vector<SymmetryPlane> &planes)
+{
+  Fragment piece;
+  piece.label = label;
+  piece.n_particles = sums.n;
+  piece.mass = sums.mass.value();
+  for (int d = 0; d < 3; ++d)
+    piece.velocity[d] = sums.momentum[d].value() / piece.mass;
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    if (sums.planes & 1u << p)
+    {
+      piece.mass *= 2.;
+      piece.velocity[planes[p].axis] = 0.;
+    }
+    else
+      piece.copies *= 2;
+  return piece;
 }
 } // namespace
 
 std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const std::vector<GlobalIndex> &label,
+                                     const std::vector<SymmetryPlane> &planes,
+                                     const double tolerance,
                                      MPI_Comm communicator)
 {
   std::map<GlobalIndex, Sums> sums;
@@ -133,6 +177,7 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
       last = &sums[label[i]];
     Sums &s = *last;
     ++s.n;
+    s.planes |= planes_at(nodes.reference_position[i], planes, tolerance);
     s.mass.add(nodes.lumped_mass[i]);
     for (int d = 0; d < 3; ++d)
       s.momentum[d].add(nodes.lumped_mass[i] * nodes.velocity[i][d]);
@@ -140,15 +185,7 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
   reduce(sums, communicator);
   std::vector<Fragment> pieces;
   for (const auto &entry : sums)
-  {
-    Fragment f;
-    f.label = entry.first;
-    f.n_particles = entry.second.n;
-    f.mass = entry.second.mass.value();
-    for (int d = 0; d < 3; ++d)
-      f.velocity[d] = entry.second.momentum[d].value() / f.mass;
-    pieces.push_back(f);
-  }
+    pieces.push_back(piece_of(entry.first, entry.second, planes));
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Fragment &a, const Fragment &b)
                    { return a.mass > b.mass; });

@@ -29,9 +29,14 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
 /** The pieces themselves, heaviest first; masses [kg] and momenta are exact
     sums, so they do not depend on the number of ranks. Collective, the same
     on all ranks. label: of the owned particles, see fragment_labels().
-    Velocity is sum m v / sum m [m/s] with the lumped masses. */
+    Velocity is sum m v / sum m [m/s] with the lumped masses. A piece with a
+    particle that at the start lay within @p tolerance [m] of one of the
+    @p planes of symmetry goes on beyond it: twice the mass for each such
+    plane, no velocity across it. */
 std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const std::vector<GlobalIndex> &label,
+                                     const std::vector<SymmetryPlane> &planes,
+                                     const double tolerance,
                                      MPI_Comm communicator);
 } // namespace sabot
 
