@@ -12,10 +12,10 @@ they may have. One process checks a batch of them, since starting takes longer
 than checking; what it answers wrongly is checked again alone. A part of the
 valid ones is also run for a nanosecond. Input K of a seed is always the same.
 
-Wrong are: a signal, an exit code that is none of Sabot's, no answer in time, a
-report of a sanitizer, a refusal of more than a few lines, and one that names
-neither the file nor an entry. Such inputs are kept, with the answer; exit code
-1 where there are some.
+Wrong are: a signal, an exit code that is none of Sabot's, no answer in time of
+a scene that is not said to be large, a report of a sanitizer, a refusal of more
+than a few lines, and one that names neither the file nor an entry. Such inputs
+are kept, with the answer; exit code 1 where there are some.
 """
 import argparse
 import concurrent.futures
@@ -34,9 +34,11 @@ import time
 from fuzz_inputs import SCENE, meshes, mutate
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-EXIT_CODES = range(5)
+EXIT_CODES = range(6)
 MOST_LINES, MOST_CHARACTERS = 8, 1500
 MOST_ITEMS = 10000  # cells and particles of a scene
+LARGE = "note: making "
+RIGHT = ("valid", "refused", "large")
 
 
 def seconds_used(pid):
@@ -172,7 +174,7 @@ class Fuzzer:
                 command = ["check", scene]
                 is_last = len(results) + 1 == len(inputs) - len(rest) + len(
                     answers)
-                if (kind not in ("valid", "refused")
+                if (kind not in RIGHT
                         or (is_last and code not in (0, 1))
                         or (kind == "refused" and code not in (None, 1)
                             and code > 1)):
@@ -190,7 +192,7 @@ class Fuzzer:
         return results
 
     def keep_or_remove(self, number, where, scene, kind):
-        if kind not in ("valid", "refused") and self.arguments.keep:
+        if kind not in RIGHT and self.arguments.keep:
             kept = os.path.join(self.arguments.keep, "%s-%d" % (
                 kind.replace(" ", "-"), number))
             shutil.rmtree(kept, ignore_errors=True)
@@ -206,7 +208,8 @@ class Fuzzer:
         if "Sanitizer" in answer or "runtime error:" in answer:
             return "sanitizer report"
         if code is None:
-            return "no answer in time"
+            # A sound scene that is large, and says so.
+            return "large" if LARGE in answer else "no answer in time"
         if code < 0:
             return "signal %d" % -code
         if code not in EXIT_CODES:
@@ -257,12 +260,12 @@ def main():
                                         pool.map(fuzzer.batch, batches)):
                 for number, (kind, command, answer) in zip(numbers, results):
                     counts[kind] = counts.get(kind, 0) + 1
-                    if kind not in ("valid", "refused"):
+                    if kind not in RIGHT:
                         print("input %d: %s: %s\n%s" % (
                             number, kind, command, answer[-1000:]), flush=True)
     print(", ".join("%s: %d" % item for item in sorted(counts.items())))
     bad = sum(n for kind, n in counts.items()
-              if kind not in ("valid", "refused"))
+              if kind not in RIGHT)
     if bad:
         print("%d wrong of %d; kept in %s" % (bad, arguments.inputs,
                                               arguments.keep))

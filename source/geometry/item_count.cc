@@ -3,6 +3,8 @@
 
 #include "sabot/base/memory_limit.h"
 
+#include <mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,14 +36,33 @@ double count_of_growing(const double length, const double fine,
          std::ceil(std::max(0., length - grown) / largest) + 1.;
 }
 
+namespace
+{
+/** Making so many takes from half a minute to an hour, in which nothing else is
+    said. */
+void tell_large(const double n, const char *const items, const std::string &how,
+                const double bytes)
+{
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0)
+    std::fprintf(stderr, "note: making %.0f %s (%s), about %.2g GB to set up\n",
+                 n, items, how.c_str(), 1e-9 * bytes);
+}
+} // namespace
+
 void check_memory_for(const double n, const Item item, const std::string &how)
 {
   const bool are_cells = item == Item::cell;
   const double bytes = n * (are_cells ? 1200. : 3000.), limit = memory_limit();
   // Numbers of nodes on a rank have 32 bits.
-  constexpr double most = 2e9;
+  constexpr double most = 2e9, many = 3e5;
   if (bytes <= limit && n <= most)
+  {
+    if (n > many)
+      tell_large(n, are_cells ? "cells" : "particles", how, bytes);
     return;
+  }
   char text[400];
   std::snprintf(text, sizeof(text),
                 "asks for %.3g %s (%s), about %.3g GB to set up, where there "
