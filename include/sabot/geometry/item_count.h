@@ -34,8 +34,9 @@ enum class Item
   particle
 };
 
-/** Throws TooManyItems where @p n of them take more than memory_limit(); says on
-    the error stream of rank 0 that they are made where they are more than 3e5.
+/** Throws TooManyItems where @p n of them take more than memory_limit(); says
+   on the error stream of rank 0 that they are made where they are more than
+   3e5.
     @param how  how they come about, for the message: "5000 x 5000 x 5000" */
 void check_memory_for(const double n, const Item item, const std::string &how);
 
