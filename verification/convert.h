@@ -37,6 +37,8 @@ struct ConvertingOptions
   FemOptions fem;
   SpgOptions spg;
   std::string name = "block";
+  double spacing =
+      0.; // of particles [m], where cells are split; 0: they are not
 };
 
 /**
@@ -61,9 +63,16 @@ std::shared_ptr<PlaceTest> add_converting(World &world, const HexMesh &mesh,
     options.spg.clamped_faces |= 1u << id;
   world.bodies.push_back(std::make_unique<Cells>(arguments..., options.name,
                                                  host, mesh, law, options.fem));
+  ParticleCloud cloud = make_mesh_cloud(mesh);
+  std::shared_ptr<const SplitMesh> lattices;
+  if (options.spacing > 0.)
+  {
+    lattices = std::make_shared<const SplitMesh>(mesh, options.spacing);
+    cloud.spacing.fill(options.spacing);
+  }
   world.bodies.push_back(std::make_unique<Particles>(
-      arguments..., options.name + " zone", host + 1, make_mesh_cloud(mesh),
-      law, options.spg));
+      arguments..., options.name + " zone", host + 1, std::move(cloud), law,
+      options.spg, lattices));
   world.bodies[host]->cell_source()->convert_by(
       {std::make_shared<const WhereTold>(where)});
   return where;

@@ -11,17 +11,19 @@ namespace
 struct Bar
 {
   double length = 0., radius = 0., residual = 0., lost = 0., converted = 0.;
-  double particles = 0.;
+  double particles = 0., kinetic = 0., impact = 0.;
   unsigned int steps = 0;
 };
 
 /** Quarter bar on a frictionless wall (a plane of symmetry) to 80 us; cells
-   turn by @p criteria, of all with none of them at the start. */
+   turn by @p criteria, of all with none of them at the start, into particles
+   @p spacing apart; 0: into their nodes. */
 Bar taylor(const double h, const bool from_start,
-           const std::vector<std::string> &criteria)
+           const std::vector<std::string> &criteria, const double spacing = 0.)
 {
   World world;
   ConvertingOptions options;
+  options.spacing = spacing;
   options.name = "bar";
   options.fem.initial_velocity = {{0., 0., -227.}};
   options.fem.symmetry_boundary_ids = {3, 4, 0};
@@ -41,6 +43,7 @@ Bar taylor(const double h, const bool from_start,
   world.distribute();
   world.stepper.initialize();
   EnergyWatch watch(world);
+  const double impact = world.ledger().kinetic.value();
   while (world.stepper.time() < 80e-6)
   {
     world.advance(0.8);
@@ -61,6 +64,10 @@ Bar taylor(const double h, const bool from_start,
   bar.residual = watch.residual();
   bar.lost = world.ledger().conversion.value();
   bar.converted = world.couplings[0]->measure()[2].value;
+  bar.impact = impact;
+  if (spacing > 0.)
+    bar.kinetic = find_measure(world.couplings[0]->measure(),
+                               "kinetic energy lost to lattices");
   bar.particles = world.bodies[1]->nodes().n_owned;
   bar.steps = world.stepper.steps();
   return bar;
@@ -70,7 +77,9 @@ std::vector<Check> problem()
 {
   const double h = 0.8e-3;
   const Bar cells = taylor(h, false, {}), all = taylor(h, true, {}),
-            foot = taylor(h, false, {"plastic strain", "shape", "stable step"});
+            foot = taylor(h, false, {"plastic strain", "shape", "stable step"}),
+            split = taylor(2. * h, false,
+                           {"plastic strain", "shape", "stable step"}, h);
   std::vector<Check> checks;
   const auto between = [&](const std::string &name, const double a,
                            const double b, const double got)
@@ -86,6 +95,11 @@ std::vector<Check> problem()
   };
   between("length", cells.length, all.length, foot.length);
   between("radius", cells.radius, all.radius, foot.radius);
+  // Twice as coarse far from the foot, as fine where it flows.
+  checks.push_back({"length, coarse cells split", foot.length, split.length,
+                    0.01 * foot.length, "m", "foot of fine cells converted"});
+  checks.push_back({"radius, coarse cells split", foot.radius, split.radius,
+                    0.02 * foot.radius, "m", "foot of fine cells converted"});
   checks.push_back({"particles found", 0., foot.particles, 0., "1", "",
                     Check::Kind::reported});
   checks.push_back({"steps: cells", 0., double(cells.steps), 0., "1", "",
@@ -95,7 +109,18 @@ std::vector<Check> problem()
   checks.push_back({"energy lost by means", 0., foot.lost / foot.converted, 0.,
                     "of the internal energy converted", "",
                     Check::Kind::reported});
-  for (const Bar *bar : {&all, &foot})
+  checks.push_back({"particles found, coarse cells split", 0., split.particles,
+                    0., "1", "", Check::Kind::reported});
+  checks.push_back({"steps: coarse cells split", 0., double(split.steps), 0.,
+                    "1", "", Check::Kind::reported});
+  checks.push_back({"energy lost, coarse cells split", 0.,
+                    split.lost / split.impact, 0., "of the impact energy", "",
+                    Check::Kind::reported});
+  checks.push_back({"of it kinetic", 0., split.kinetic / split.impact, 0.,
+                    "of the impact energy", "", Check::Kind::reported});
+  checks.push_back({"energy lost, fine cells", 0., foot.lost / foot.impact, 0.,
+                    "of the impact energy", "", Check::Kind::reported});
+  for (const Bar *bar : {&all, &foot, &split})
     checks.push_back({"energy residual", 0., bar->residual, 5e-3, "1",
                       "closed system", Check::Kind::at_most});
   return checks;

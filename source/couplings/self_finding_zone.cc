@@ -24,6 +24,10 @@ SelfFindingZone::SelfFindingZone(const std::string &name,
 void SelfFindingZone::initialize()
 {
   sink.live_with(host.node_owner);
+  source.split_by(sink.lattices());
+  if (sink.lattices())
+    lattice = std::make_unique<LatticeFollowers>(
+        LatticeFollowers::Parts{zone, host, source, sink, communicator});
   std::vector<GlobalIndex> kept;
   if (others)
     for (const auto *const nodes : {&others->followers, &others->leaders})
@@ -54,10 +58,13 @@ bool SelfFindingZone::change_bodies(const unsigned int step)
         is_failed[pair.node] = 1;
   };
   is_failing.assign(zone.nodes().n_owned, 0);
-  for (const std::size_t i : sink.failed_particles())
+  const std::vector<std::size_t> failing = sink.failed_particles();
+  for (const std::size_t i : failing)
     is_failing[i] = 1;
   mark(shared);
   mark(alone);
+  if (lattice)
+    lattice->mark(failing, is_failed);
   return convert(source.unfit_cells(is_failed), step);
 }
 
@@ -68,7 +75,6 @@ bool SelfFindingZone::convert(const std::vector<std::size_t> &cells,
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, communicator);
   if (any == 0)
     return false;
-  NodalState &nodes = host.nodes(), &particles = zone.nodes();
   // Nodes have their particles' forces: back to those of cells and couplings.
   take_back();
   std::vector<NodalMatter::Entry> beside;
@@ -77,6 +83,9 @@ bool SelfFindingZone::convert(const std::vector<std::size_t> &cells,
     beside.push_back(sink.content(pair.particle));
     beside.back().node = pair.node;
   }
+  std::vector<LatticeFollowers::Turning> turned;
+  if (lattice)
+    turned = lattice->gather(cells);
   const NodalMatter matter = source.give(cells, beside);
   for (const NodalMatter::Entry &entry : matter.entries)
   {
@@ -84,18 +93,32 @@ bool SelfFindingZone::convert(const std::vector<std::size_t> &cells,
     converted_mass.add(entry.mass);
     converted_energy.add(entry.internal_energy);
   }
-  const std::size_t before = particles.n_owned;
-  sink.take(matter, nodes, step, lost);
+  const std::size_t before = zone.nodes().n_owned;
+  sink.take(matter, step, lost);
   pair_new(before);
   settle_pairs(matter);
+  if (lattice)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const Shared &pair : shared)
+      pairs.emplace_back(pair.particle, pair.node);
+    lattice->settle(matter, turned, pairs);
+    impose_kinematics(); // of what has been kicked
+  }
   hand_on();
   return true;
+}
+
+bool SelfFindingZone::is_at_node(const std::size_t i) const
+{
+  return !lattice ||
+         sink.sites()[zone.nodes().global_id[i]] < sink.lattices()->n_nodes();
 }
 
 SelfFindingZone::Shared SelfFindingZone::pair_of(const std::size_t i) const
 {
   const NodalState &nodes = host.nodes(), &particles = zone.nodes();
-  const GlobalIndex id = sink.host_nodes()[particles.global_id[i]];
+  const GlobalIndex id = sink.sites()[particles.global_id[i]];
   const auto node = std::lower_bound(
       nodes.global_id.begin(), nodes.global_id.begin() + nodes.n_owned, id);
   return {i, std::size_t(node - nodes.global_id.begin())};
@@ -104,7 +127,8 @@ SelfFindingZone::Shared SelfFindingZone::pair_of(const std::size_t i) const
 void SelfFindingZone::pair_new(const std::size_t first)
 {
   for (std::size_t i = first; i < zone.nodes().n_owned; ++i)
-    shared.push_back(pair_of(i));
+    if (is_at_node(i))
+      shared.push_back(pair_of(i));
 }
 
 void SelfFindingZone::settle_pairs(const NodalMatter &matter)
@@ -114,7 +138,8 @@ void SelfFindingZone::settle_pairs(const NodalMatter &matter)
   NodalState &nodes = host.nodes(), &particles = zone.nodes();
   std::vector<char> goes(nodes.n_owned, 0);
   for (const NodalMatter::Entry &entry : matter.entries)
-    goes[entry.node] = entry.is_bare && nodes.lumped_mass[entry.node] == 0.;
+    if (entry.node != NodalMatter::no_node)
+      goes[entry.node] = entry.is_bare && nodes.lumped_mass[entry.node] == 0.;
   std::size_t kept = 0;
   for (const Shared &pair : shared)
   {
@@ -135,6 +160,8 @@ void SelfFindingZone::settle_pairs(const NodalMatter &matter)
 
 void SelfFindingZone::take_back()
 {
+  if (lattice)
+    lattice->take_back();
   NodalState &nodes = host.nodes();
   for (std::size_t k = 0; k < shared.size(); ++k)
     nodes.force[shared[k].node] -= handed[k];
@@ -150,6 +177,8 @@ void SelfFindingZone::hand_on()
     handed[k] = particles.force[shared[k].particle];
     nodes.force[shared[k].node] += handed[k];
   }
+  if (lattice)
+    lattice->hand_on();
 }
 
 void SelfFindingZone::impose_kinematics()
@@ -159,6 +188,8 @@ void SelfFindingZone::impose_kinematics()
     particles.velocity[pair.particle] = nodes.velocity[pair.node];
   for (const Shared &pair : alone)
     nodes.velocity[pair.node] = particles.velocity[pair.particle];
+  if (lattice)
+    lattice->impose_kinematics();
 }
 
 void SelfFindingZone::add_forces(const double)
@@ -176,18 +207,27 @@ void SelfFindingZone::add_energies(EnergyLedger &ledger) const
 {
   ledger.conversion.add(lost);
   ledger.conversion.add(hourglass);
+  if (lattice)
+    ledger.conversion.add(lattice->lost());
 }
 
 Measures SelfFindingZone::measure() const
 {
   ExactSum mass = converted_mass, energy = converted_energy, gone = lost,
            modes = hourglass;
-  ExactSum::reduce({&mass, &energy, &gone, &modes}, communicator);
-  return {{"converted mass", "kg", mass.value()},
-          {"particles", "1", double(sink.host_nodes().size())},
-          {"energy of what was converted", "J", energy.value()},
-          {"energy lost by means", "J", gone.value()},
-          {"hourglass energy lost", "J", modes.value()}};
+  ExactSum kinetic;
+  if (lattice)
+    kinetic = lattice->lost();
+  ExactSum::reduce({&mass, &energy, &gone, &modes, &kinetic}, communicator);
+  Measures measures{{"converted mass", "kg", mass.value()},
+                    {"particles", "1", double(sink.sites().size())},
+                    {"energy of what was converted", "J", energy.value()},
+                    {"energy lost by means", "J", gone.value()},
+                    {"hourglass energy lost", "J", modes.value()}};
+  if (lattice)
+    measures.push_back(
+        {"kinetic energy lost to lattices", "J", kinetic.value()});
+  return measures;
 }
 
 void SelfFindingZone::visit_state(StateVisitor &visitor)
@@ -206,6 +246,8 @@ void SelfFindingZone::visit_state(StateVisitor &visitor)
     forces[shared[k].particle] = handed[k];
   visitor.visit_items("particles alone", is_alone, particles);
   visitor.visit_items("forces handed on", forces, particles);
+  if (lattice)
+    lattice->visit_state(visitor);
   if (!visitor.is_restoring())
     return;
   shared.clear();
@@ -214,7 +256,7 @@ void SelfFindingZone::visit_state(StateVisitor &visitor)
   for (std::size_t i = 0; i < n; ++i)
     if (is_alone[i])
       alone.push_back(pair_of(i));
-    else
+    else if (is_at_node(i))
     {
       shared.push_back(pair_of(i));
       handed.push_back(forces[i]);

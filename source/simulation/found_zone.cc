@@ -18,7 +18,7 @@ std::vector<FoundZone> find_grown(const Scene &scene, MPI_Comm communicator)
     FoundZone found;
     found.zone = body.name;
     found.host = scene.bodies[zone.host]->name;
-    found.n_particles = body.particle_sink()->host_nodes().size();
+    found.n_particles = body.particle_sink()->sites().size();
     constexpr double far = std::numeric_limits<double>::max();
     std::array<double, 6> bounds; // low, and minus high
     bounds.fill(far);

@@ -89,6 +89,11 @@ GrowingZone BodyAssembly::record_growing(const Carving &carving)
     criterion->check(law, path);
   bodies[zone.host]->own_particles = bodies[zone.zone].get();
   bodies[zone.host]->cell_source()->convert_by(zone.request.criteria);
+  if (const auto &lattices = bodies[zone.zone]->particle_sink()->lattices())
+    notes.push_back(
+        carving.zone + ": cells of " + carving.body + " are split into " +
+        formatted("%.0f to ", lattices->parts().first) +
+        formatted("%.0f parts along their edges", lattices->parts().second));
   return zone;
 }
 

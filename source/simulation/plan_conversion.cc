@@ -2,6 +2,7 @@
 #include "sabot/simulation/plan_conversion.h"
 
 #include "sabot/base/text.h"
+#include "sabot/bodies/conversion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +73,11 @@ ConversionForecast::ConversionForecast(const Scene &scene,
     const std::size_t striker = physics.impact.projectile;
     if (striker == std::size_t(zone.host) || striker == std::size_t(zone.zone))
       upset(scene, physics, host);
-    else
-      enter(scene, physics, host, own.facts.spacing[0]);
+    else // layers are of cells, which are as fine as particles unless split
+      enter(scene, physics, host,
+            scene.bodies[zone.zone]->particle_sink()->lattices()
+                ? host.facts.spacing[0]
+                : own.facts.spacing[0]);
   }
 }
 

@@ -41,17 +41,19 @@ bool make_step(Stepper &stepper, TimedSteps &timed)
   return timed.problem.empty();
 }
 
-/** Particles that are expected by then. Collective. */
+/** Particles that are expected by then, of split cells as many as their
+   lattices have. Collective. */
 double count_turned(const Scene &scene, const GrowingZone &zone,
                     const ConversionForecast &forecast, const double time,
-                    MPI_Comm communicator)
+                    const std::vector<double> &at_node, MPI_Comm communicator)
 {
   const NodalState &nodes = scene.bodies[zone.host]->nodes();
   double n = 0.;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
     const Vec X = nodes.reference_position[i];
-    n += forecast.has_turned({{X[0], X[1], X[2]}}, time) ? 1. : 0.;
+    if (forecast.has_turned({{X[0], X[1], X[2]}}, time))
+      n += at_node.empty() ? 1. : at_node[nodes.global_id[i]];
   }
   MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_DOUBLE, MPI_SUM, communicator);
   return n;
@@ -210,10 +212,14 @@ void add_growth(Scene &scene, const PhysicsPlan &physics,
                                0.};
     if (forecasts[z].exists())
     {
+      const auto &lattices =
+          scene.bodies[zone.zone]->particle_sink()->lattices();
+      const std::vector<double> at_node =
+          lattices ? lattices->sites_by_node() : std::vector<double>();
       for (int k = 0; k <= n_parts; ++k)
       {
         found.n_particles = count_turned(scene, zone, forecasts[z],
-                                         now + k * part, communicator);
+                                         now + k * part, at_node, communicator);
         n_turned[k] += found.n_particles;
       }
       found.first = forecasts[z].first_time();

@@ -36,6 +36,8 @@ SCENES = (
     ("loads", "tests/scenes/loads.prm", 1, (4,), 0.5, ()),
     ("loads beside cells that turn", "tests/scenes/growing.prm", 3, (2,), 0.6,
      ()),
+    ("cells that are split into lattices", "tests/scenes/growing.prm", 4, (2,),
+     0.6, ("Bodies/zone/Nodal spacing=0.5 mm",)),
     ("erosion", "prm/perforation/fem-erosion.prm", 4, (3,), 0.8,
      ("Bodies/plate/Cell size=2.5 mm", "End time=9 us",
       "Outputs/fields/Interval=9 us")),

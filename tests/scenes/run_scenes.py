@@ -379,8 +379,13 @@ class Scenes(unittest.TestCase):
                 ("core/Clamped faces=-z", "remove the entry"),
                 ("core/Approximation=convex exponential", "least squares"),
                 ("core/Conversion interval=0", "Conversion interval"),
+                ("core/Nodal spacing=1.5 mm", "of cells of 1 mm"),
+                ("core/Nodal spacing=0.5 mm@core/Coarse cells=whole",
+                 "let cells be split"),
                 ("plate/Smallest step=10 ns", "turn into")):
-            done = sabot("check", scene, "--set", "Bodies/" + entry)
+            settings = [word for one in entry.split("@")
+                        for word in ("--set", "Bodies/" + one)]
+            done = sabot("check", scene, *settings)
             self.assertEqual(done.returncode, 1, entry + done.stdout)
             self.assertIn(text, done.stdout)
         done = sabot("check", scene, "--set",

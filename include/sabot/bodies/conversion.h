@@ -5,21 +5,24 @@
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/conversion_criterion.h"
+#include "sabot/geometry/split_mesh.h"
 #include "sabot/kernels/vec.h"
 #include "sabot/materials/material.h"
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace sabot
 {
 /**
- * What cells hand over to their nodes when they turn into particles: an eighth
- * of each to every corner. One entry per owned node of the host that takes
- * part, ascending by local number; SI units.
+ * What cells hand over when they turn into particles: an eighth of each to
+ * every corner, or to every site of its lattice the share that SplitMesh says.
+ * One entry per site that is owned here and takes part, ascending by number;
+ * sites are the nodes of the host, or those of its lattices. SI units.
  *
  * Mass, energies and extensive quantities are sums over the cells that go;
  * deformation, stress and state are their means, so that they lie between those
@@ -28,9 +31,13 @@ namespace sabot
  */
 struct NodalMatter
 {
+  static constexpr std::size_t no_node = -1;
   struct Entry
   {
-    std::size_t node = 0;                           // local, of the host
+    GlobalIndex site = 0;
+    std::size_t node = no_node; // local, of the host, where the site is one
+    GlobalIndex cell = 0;       // lowest of the mesh that has handed to it
+    Vec position = {}, velocity = {};               // [m], [m/s]
     double mass = 0.;                               // [kg]
     double reference_volume = 0., volume = 0.;      // V_0, V [m^3]
     double internal_energy = 0., plastic_work = 0.; // [J]
@@ -40,7 +47,7 @@ struct NodalMatter
     double viscous_pressure = 0.;             // [Pa]
     Mat gradient = Mat::zero();               // F
     std::array<double, n_symmetric> stress{}; // [Pa]
-    /** The node has no cell left in the host. */
+    /** The site has no cell left in the host. */
     bool is_bare = false;
   };
   std::vector<Entry> entries;
@@ -65,7 +72,7 @@ double elastic_energy_density(const std::array<double, n_symmetric> &stress,
                               const Material &law);
 
 /**
- * A body of cells that may turn into particles at their nodes. What of it other
+ * A body of cells that may turn into particles. What of it other
  * bodies see, as Body::cell_source().
  */
 class CellSource
@@ -76,6 +83,9 @@ public:
   /** Before distribute(): cells will be asked for. @p criteria say which. */
   virtual void convert_by(
       std::vector<std::shared_ptr<const ConversionCriterion>> criteria) = 0;
+  /** Cells turn into the lattices of this mesh, whose nodes and cells are the
+      body's; null: into particles at their nodes. After distribute(). */
+  virtual void split_by(std::shared_ptr<const SplitMesh> mesh) = 0;
   /** Cells never turn that have one of these nodes, by number in the body:
      those of ties, of loaded faces, and what moves by prescription. The same on
      every rank. */
@@ -98,11 +108,18 @@ public:
   virtual NodalMatter
   give(const std::vector<std::size_t> &cells,
        const std::vector<NodalMatter::Entry> &particles) = 0;
+  /** Local number of a node of the mesh; that of no node where this rank does
+      not have it. A rank has all nodes of all cells around those it owns. */
+  virtual std::size_t local_node(const GlobalIndex node) const = 0;
+  /** Number in the mesh of this rank's cell @p e. */
+  virtual GlobalIndex cell_number(const std::size_t e) const = 0;
+  /** Velocities of ghost nodes from their owners. Collective. */
+  virtual void refresh_velocities() = 0;
 };
 
 /**
  * A body of particles that grows by what cells give. Particle number k of the
- * body is the node host_nodes()[k] of the host: numbers go up in the order in
+ * body is the site sites()[k] of the host: numbers go up in the order in
  * which particles came, so that those that are there keep theirs.
  */
 class ParticleSink
@@ -110,22 +127,31 @@ class ParticleSink
 public:
   virtual ~ParticleSink() = default;
 
-  /** Before the first particle: each is on the rank that has its node.
-      @p owner: of the host's nodes; outlives this. */
+  /** Before the first particle: each is on the rank that has its node, or the
+      lowest of its carrier. @p owner: of the host's nodes; outlives this. */
   virtual void live_with(const std::vector<int> &owner) = 0;
-  /** Make particles of matter, or let those that are there take it, with
-      position and velocity of @p host's nodes; then kernels, bonds and forces
-      of now. Adds to @p lost what of the elastic energy is gone by taking means
-      [J]. Collective; @p step: the number of the step that ended. */
-  virtual void take(const NodalMatter &matter, const NodalState &host,
-                    const unsigned int step, ExactSum &lost) = 0;
+  /** Make particles of matter, or let those that are there take it; then
+      kernels, bonds and forces of now. Adds to @p lost what of the elastic
+     energy is gone by taking means [J]. Collective; @p step: the number of the
+     step that ended. */
+  virtual void take(const NodalMatter &matter, const unsigned int step,
+                    ExactSum &lost) = 0;
   /** Of every particle of the body, by its number; the same on all ranks. */
-  virtual const std::vector<GlobalIndex> &host_nodes() const = 0;
+  virtual const std::vector<GlobalIndex> &sites() const = 0;
+  /** Of whose lattices the sites are; null: of the host's nodes alone. */
+  virtual const std::shared_ptr<const SplitMesh> &lattices() const = 0;
+  /** Local number of the owned particle at a site; nothing: none is. */
+  virtual std::optional<std::size_t>
+  particle_at(const GlobalIndex site) const = 0;
+  /** Of particle number @p k, whatever rank owns it: 1 where a component of its
+      velocity is free, 0 where planes of symmetry and clamps hold it. With
+      lattices only. */
+  virtual Vec free_components(const std::size_t k) const = 0;
   /** Local numbers of owned particles beside broken bonds. */
   virtual std::vector<std::size_t> failed_particles() const = 0;
   /** Volumes and stress of an owned particle now. */
   virtual NodalMatter::Entry content(const std::size_t i) const = 0;
-  /** The particle moves by its own forces from now on: its host's node has no
+  /** The particle moves by its own forces from now on: its site has no
       cells any more. @p i: owned. */
   virtual void set_free(const std::size_t i) = 0;
 };

@@ -4,6 +4,7 @@
 #include "sabot/base/exact_sum.h"
 #include "sabot/bodies/conversion.h"
 #include "sabot/couplings/coupling.h"
+#include "sabot/couplings/lattice_followers.h"
 #include "sabot/couplings/tie.h"
 
 #include <functional>
@@ -36,6 +37,7 @@ struct SelfFindingOptions
  * node, without mass, goes along. Mass and both momenta are kept to round-off,
  * as node and particle are at one place with one velocity and share one mass.
  * Nodes and particles that belong together are on one rank: nothing is sent.
+ * Particles of split cells within edges and faces are up to LatticeFollowers.
  */
 class SelfFindingZone : public Coupling
 {
@@ -68,6 +70,8 @@ private:
   {
     std::size_t particle, node;
   };
+  /** Whether the particle's site is a node. */
+  bool is_at_node(const std::size_t i) const;
   /** Turn these cells. Collective; @return whether any rank had one. */
   bool convert(const std::vector<std::size_t> &cells, const unsigned int step);
   /** An owned particle and its node. */
@@ -76,7 +80,7 @@ private:
   void pair_new(const std::size_t first);
   /** Particles whose nodes lost their last cells move by themselves. */
   void settle_pairs(const NodalMatter &matter);
-  /** Particles' forces from and to the nodes that they share. */
+  /** Particles' forces from and to the nodes that they share or follow. */
   void take_back();
   void hand_on();
 
@@ -93,6 +97,7 @@ private:
   ExactSum converted_mass, converted_energy; // [kg], [J]
   std::vector<char> is_failing;              // of particles, while it looks
   Region told;                               // turns after the next step
+  std::unique_ptr<LatticeFollowers> lattice; // null: cells are not split
 };
 } // namespace sabot
 

@@ -1,4 +1,4 @@
-// Stress and volume ratio where the eighths of cells lie.
+// Stress and volume ratio where the shares of cells lie.
 #include "sabot/bodies/fem/corner_fields.h"
 
 #include <algorithm>
@@ -79,16 +79,17 @@ CornerFields::CornerFields(const Hexahedra &cells, const NodalState &nodes,
   exchange.update(around.data()); // a ghost may lack cells here
 }
 
-void CornerFields::move_to(const std::size_t e, const int corner,
+void CornerFields::move_to(const std::size_t e,
+                           const std::array<double, 3> &middle,
                            NodalMatter::Entry &share) const
 {
-  constexpr double weight[4] = {27. / 64., 9. / 64., 3. / 64., 1. / 64.};
   Values change{};
   for (int b = 0; b < 8; ++b)
   {
-    const int differ = side[corner] ^ side[b];
-    const double w =
-        weight[(differ & 1) + (differ >> 1 & 1) + (differ >> 2 & 1)] - 0.125;
+    double w = 1.;
+    for (int d = 0; d < 3; ++d)
+      w *= 0.5 * (side[b] >> d & 1 ? 1. + middle[d] : 1. - middle[d]);
+    w -= 0.125;
     const Values &mean = around[cells.connectivity[e][b]].mean;
     for (int k = 0; k < n; ++k)
       change[k] += w * mean[k];
@@ -98,9 +99,19 @@ void CornerFields::move_to(const std::size_t e, const int corner,
     share.stress[c] += change[1 + c];
 }
 
-void CornerFields::bound(NodalMatter::Entry &entry) const
+void CornerFields::bound(const std::vector<std::size_t> &nodes,
+                         NodalMatter::Entry &entry) const
 {
-  const Around &node = around[entry.node];
+  Around node = around[nodes[0]];
+  for (const std::size_t a : nodes)
+  {
+    for (int k = 0; k < n; ++k)
+    {
+      node.least[k] = std::min(node.least[k], around[a].least[k]);
+      node.largest[k] = std::max(node.largest[k], around[a].largest[k]);
+    }
+    node.mises = std::max(node.mises, around[a].mises);
+  }
   const double V_0 = entry.reference_volume;
   entry.volume =
       std::clamp(entry.volume, V_0 * node.least[0], V_0 * node.largest[0]);

@@ -73,6 +73,12 @@ void LivingCells::find_neighbors()
   }
 }
 
+bool LivingCells::has(const GlobalIndex cell) const
+{
+  const auto found = std::lower_bound(id.begin(), id.end(), cell);
+  return found != id.end() && *found == cell && alive[found - id.begin()];
+}
+
 std::vector<std::uint32_t> LivingCells::cells_of_faces() const
 {
   std::vector<std::uint32_t> found;

@@ -20,7 +20,10 @@ namespace sabot
 {
 void ParticleIntake::set_up()
 {
-  skin = body.surface.skin_of(body.cloud);
+  if (body.lattices)
+    forget_places();
+  else
+    skin = body.surface.skin_of(body.cloud);
   if (body.options.symmetry_faces != 0)
     body.constraints.expect(VelocityConstraints::Holder::symmetry);
   if (body.options.clamped_faces != 0)
@@ -52,11 +55,31 @@ void ParticleIntake::set_free(const std::size_t i)
   body.nodes.inertia[i] = body.nodes.lumped_mass[i];
 }
 
-void ParticleIntake::take(const NodalMatter &given, const NodalState &from,
-                          const unsigned int step, ExactSum &lost_energy)
+std::optional<std::size_t>
+ParticleIntake::particle_at(const GlobalIndex at) const
+{
+  const auto found = local_of_site.find(at);
+  if (found == local_of_site.end())
+    return std::nullopt;
+  return found->second;
+}
+
+Vec ParticleIntake::free_components(const std::size_t k) const
+{
+  const std::uint32_t faces = body.cloud.on_face[place_of(k)];
+  if (faces & body.options.clamped_faces)
+    return Vec{};
+  Vec free = vec(1., 1., 1.);
+  for (unsigned int face = 0; face < body.cloud.face_axis.size(); ++face)
+    if (faces & body.options.symmetry_faces & 1u << face)
+      free[*body.cloud.face_axis[face]] = 0.;
+  return free;
+}
+
+void ParticleIntake::take(const NodalMatter &given, const unsigned int step,
+                          ExactSum &lost_energy)
 {
   matter = &given;
-  host = &from;
   lost = &lost_energy;
   body.update(step);
   matter = nullptr;
@@ -69,48 +92,89 @@ std::vector<std::size_t> ParticleIntake::number_new()
   std::vector<std::size_t> entries;
   for (std::size_t k = 0; k < matter->entries.size(); ++k)
   {
-    const GlobalIndex id = host->global_id[matter->entries[k].node];
-    if (local_of_host.count(id) > 0)
+    const GlobalIndex at = matter->entries[k].site;
+    if (local_of_site.count(at) > 0)
       continue;
-    mine.push_back(id);
+    mine.push_back(at);
     entries.push_back(k);
   }
   std::vector<GlobalIndex> all = gather_all(mine, body.communicator);
   std::sort(all.begin(), all.end());
-  for (const GlobalIndex id : all)
-  {
-    hosts.push_back(id);
-    body.rank_of.push_back((*host_owner)[id]);
-    body.node_owner.push_back((*host_owner)[id]);
-  }
-  body.n_global = hosts.size();
+  const std::size_t first = site.size();
+  site.insert(site.end(), all.begin(), all.end());
+  learn_places(first);
   return entries;
 }
 
-void ParticleIntake::extend(const std::vector<GlobalIndex> &new_hosts)
+void ParticleIntake::forget_places()
+{
+  // Spacing and planes stay.
+  ParticleCloud empty;
+  empty.spacing = body.cloud.spacing;
+  empty.face_axis = body.cloud.face_axis;
+  body.cloud = std::move(empty);
+  skin = {};
+}
+
+void ParticleIntake::learn_places(const std::size_t first)
+{
+  const std::vector<GlobalIndex> fresh(site.begin() + first, site.end());
+  for (const GlobalIndex at : fresh)
+  {
+    const GlobalIndex node =
+        body.lattices ? body.lattices->carrier(at).node[0] : at;
+    body.rank_of.push_back((*host_owner)[node]);
+    body.node_owner.push_back((*host_owner)[node]);
+  }
+  body.n_global = site.size();
+  if (!body.lattices || fresh.empty())
+    return;
+  ParticleSurface::Skin more;
+  const ParticleCloud cloud = body.lattices->cloud_of(
+      fresh, body.options.symmetry_faces, more.normal, more.spacing);
+  const auto append = [](auto &all, const auto &some)
+  { all.insert(all.end(), some.begin(), some.end()); };
+  append(body.cloud.position, cloud.position);
+  append(body.cloud.shape, cloud.shape);
+  append(body.cloud.on_face, cloud.on_face);
+  append(skin.normal, more.normal);
+  append(skin.spacing, more.spacing);
+}
+
+std::vector<GlobalIndex> ParticleIntake::places() const
+{
+  std::vector<GlobalIndex> all;
+  for (std::size_t k = 0; k < site.size(); ++k)
+    all.push_back(place_of(k));
+  return all;
+}
+
+void ParticleIntake::extend(const std::vector<GlobalIndex> &fresh)
 {
   NodalState &nodes = body.nodes;
-  const std::size_t before = nodes.n_owned, n = before + new_hosts.size();
+  const std::size_t before = nodes.n_owned, n = before + fresh.size();
   nodes.resize(before); // ghosts are numbered anew
   nodes.n_owned = n;
   nodes.resize(n);
-  for (std::size_t k = 0; k < new_hosts.size(); ++k)
+  std::vector<GlobalIndex> where;
+  for (std::size_t k = 0; k < fresh.size(); ++k)
   {
-    const auto &X = body.cloud.position[new_hosts[k]];
+    where.push_back(place_of(fresh[k]));
+    const auto &X = body.cloud.position[where[k]];
     nodes.reference_position[before + k] = vec(X[0], X[1], X[2]);
-    local_of_host[new_hosts[k]] = before + k;
+    local_of_site[site[fresh[k]]] = before + k;
   }
   body.fields.extend(n);
   body.points.extend(n);
-  body.kernel.extend(body.kernel.initial_kernels_of(body.cloud, new_hosts));
+  body.kernel.extend(body.kernel.initial_kernels_of(body.cloud, where));
   body.approximation.extend(n);
   body.failure.extend(n, body.residual_strength);
   body.stable.extend(n);
   body.stabilization.extend(n);
-  for (const GlobalIndex host_node : hosts)
-    largest_spacing = std::max(largest_spacing, skin.spacing[host_node]);
+  for (const GlobalIndex place : places())
+    largest_spacing = std::max(largest_spacing, skin.spacing[place]);
   body.surface.set_largest_spacing(largest_spacing);
-  body.surface.extend(body.cloud, skin, new_hosts, body.options.clamped_faces,
+  body.surface.extend(body.cloud, skin, where, body.options.clamped_faces,
                       body.constraints);
 }
 
@@ -118,8 +182,8 @@ void ParticleIntake::fill_new(const std::size_t i, const std::size_t entry)
 {
   const NodalMatter::Entry &e = matter->entries[entry];
   NodalState &nodes = body.nodes;
-  nodes.position[i] = host->position[e.node];
-  nodes.velocity[i] = host->velocity[e.node];
+  nodes.position[i] = e.position;
+  nodes.velocity[i] = e.velocity;
   nodes.force[i] = Vec{};
   nodes.lumped_mass[i] = e.mass;
   nodes.inertia[i] = e.is_bare ? e.mass : 0.;
@@ -181,17 +245,18 @@ void ParticleIntake::merge(const std::size_t i, const std::size_t entry)
 
 BondList::Rows ParticleIntake::grow()
 {
-  const GlobalIndex first_new = hosts.size();
+  const GlobalIndex first_new = site.size();
   const std::vector<std::size_t> fresh = number_new();
-  std::vector<GlobalIndex> new_hosts;
+  std::vector<GlobalIndex> numbers;
   for (const std::size_t entry : fresh)
-    new_hosts.push_back(host->global_id[matter->entries[entry].node]);
+    numbers.push_back(std::lower_bound(site.begin() + first_new, site.end(),
+                                       matter->entries[entry].site) -
+                      site.begin());
   const std::size_t before = body.nodes.n_owned;
   for (std::size_t k = 0; k < matter->entries.size(); ++k)
   {
-    const auto known =
-        local_of_host.find(host->global_id[matter->entries[k].node]);
-    if (known != local_of_host.end())
+    const auto known = local_of_site.find(matter->entries[k].site);
+    if (known != local_of_site.end())
       merge(known->second, k);
   }
   BondList::Rows old_rows;
@@ -201,13 +266,11 @@ BondList::Rows ParticleIntake::grow()
       old_rows.add(body.nodes.global_id[body.bonds.neighbor[b]]);
     old_rows.end_row();
   }
-  extend(new_hosts);
+  extend(numbers);
   for (std::size_t k = 0; k < fresh.size(); ++k)
   {
     const std::size_t i = before + k;
-    body.nodes.global_id[i] =
-        std::lower_bound(hosts.begin() + first_new, hosts.end(), new_hosts[k]) -
-        hosts.begin();
+    body.nodes.global_id[i] = numbers[k];
     fill_new(i, fresh[k]);
   }
   // New ones have the highest numbers, so they follow what was there.
@@ -229,14 +292,15 @@ BondList::Rows ParticleIntake::grow()
 BondList::Rows ParticleIntake::rows_with(const GlobalIndex first_new) const
 {
   // Of the undeformed lattice, as in a zone of the start.
-  std::vector<std::array<double, 3>> points(hosts.size());
-  for (std::size_t k = 0; k < hosts.size(); ++k)
-    points[k] = body.cloud.position[hosts[k]];
+  const std::vector<GlobalIndex> place = places();
+  std::vector<std::array<double, 3>> points(place.size());
+  for (std::size_t k = 0; k < place.size(); ++k)
+    points[k] = body.cloud.position[place[k]];
   const std::vector<GlobalIndex> owned(body.nodes.global_id.begin(),
                                        body.nodes.global_id.begin() +
                                            body.nodes.n_owned);
   const BondList::Rows all = BondList::rows_in_kernels(
-      points, body.kernel.initial_kernels_of(body.cloud, hosts),
+      points, body.kernel.initial_kernels_of(body.cloud, place),
       body.options.has_tensor_kernel(), owned);
   BondList::Rows rows;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -264,25 +328,22 @@ void ParticleIntake::visit_state(StateVisitor &visitor)
 {
   visitor.visit_value("particles of the last calibration", n_measured);
   visitor.visit_value("times that particles came", n_taken);
-  visitor.visit_resized("host nodes", hosts);
+  visitor.visit_resized("host nodes", site);
   if (!visitor.is_restoring())
     return;
   int rank;
   MPI_Comm_rank(body.communicator, &rank);
   body.rank_of.clear();
-  for (const GlobalIndex node : hosts)
-    body.rank_of.push_back((*host_owner)[node]);
-  body.node_owner = body.rank_of;
-  std::vector<GlobalIndex> ids, mine;
-  for (std::size_t k = 0; k < hosts.size(); ++k)
+  body.node_owner.clear();
+  if (body.lattices)
+    forget_places();
+  learn_places(0);
+  std::vector<GlobalIndex> ids;
+  for (std::size_t k = 0; k < site.size(); ++k)
     if (body.rank_of[k] == rank)
-    {
       ids.push_back(k);
-      mine.push_back(hosts[k]);
-    }
   const std::size_t before = body.nodes.n_owned;
-  body.n_global = hosts.size();
-  extend({mine.begin() + before, mine.end()});
+  extend({ids.begin() + before, ids.end()});
   std::copy(ids.begin(), ids.end(), body.nodes.global_id.begin());
 }
 } // namespace sabot

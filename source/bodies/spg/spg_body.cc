@@ -14,7 +14,8 @@ namespace sabot
 {
 SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                  std::shared_ptr<const Material> material,
-                 const SpgOptions &options)
+                 const SpgOptions &options,
+                 std::shared_ptr<const SplitMesh> lattices)
     : ScaledBody(name, id), cloud(std::move(cloud)), options(options),
       n_global(options.grows ? 0 : this->cloud.position.size()),
       points(std::move(material)), kernel(options, this->cloud),
@@ -39,9 +40,25 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
 {
   if (options.grows)
     intake = std::make_unique<ParticleIntake>(ParticleIntake::Rooms{
-        this->options, this->cloud, nodal_state, bonds, fields, points, kernel,
-        approximation, surface, *stabilization, failure, *residual_strength,
-        stable, constraints, rank_of, node_owner, n_global, communicator,
+        this->options,
+        this->cloud,
+        std::move(lattices),
+        nodal_state,
+        bonds,
+        fields,
+        points,
+        kernel,
+        approximation,
+        surface,
+        *stabilization,
+        failure,
+        *residual_strength,
+        stable,
+        constraints,
+        rank_of,
+        node_owner,
+        n_global,
+        communicator,
         [this](const unsigned int step) { update_kernel_and_forces(step); }});
   else
     outline = outline_of(this->cloud, options.symmetry_faces);

@@ -121,6 +121,15 @@ public:
                      "\"Converts by\"; box or cylinder, where given by Size or "
                      "Radius, are of particles from the start. No tie is "
                      "needed.");
+    prm.declare_knob(
+        "Coarse cells", "by spacing", one_of("by spacing|split|whole"),
+        "Cells of the host of a self-finding zone that are coarser "
+        "than \"Nodal spacing\". split: each turns into a lattice "
+        "of particles, of whole numbers of parts along each row of "
+        "edges, nearest to that spacing. whole: into particles at "
+        "its nodes, as far apart as these. by spacing: split where "
+        "\"Nodal spacing\" is less than \"Cell size\" of the host, "
+        "else whole.");
     prm.declare_knob("Converts by", standard_criteria, name_list(),
                      "What turns a cell into particles, any of these:" +
                          described_criteria());
@@ -146,6 +155,7 @@ public:
                            "lattice of its own");
     NamedMesh faces;
     ParticleCloud cloud;
+    std::shared_ptr<const SplitMesh> lattices;
     if (has_lattice)
     {
       spacing.resize(3, spacing[0]);
@@ -163,6 +173,7 @@ public:
       faces.faces = mesh.faces;
       faces.groups = mesh.groups;
       cloud = make_mesh_cloud(mesh.mesh);
+      lattices = split(request, mesh.mesh, spacing[0]);
       if (!request.cells && !request.shape.follows_cell_size())
         follow_spacing(request.prm, request.file, request.path,
                        cloud.spacing[0]);
@@ -180,9 +191,9 @@ public:
                            "start; a self-finding zone needs least squares");
     if (options.grows)
       cloud.spacing.fill(get_quantities(request.prm, "Nodal spacing")[0]);
-    auto body =
-        std::make_unique<SpgBody>(request.name, request.id, std::move(cloud),
-                                  std::move(request.material), options);
+    auto body = std::make_unique<SpgBody>(
+        request.name, request.id, std::move(cloud), std::move(request.material),
+        options, std::move(lattices));
     body->find_faces = face_finder(faces);
     return body;
   }
@@ -206,6 +217,22 @@ public:
     return request;
   }
 
+  /** Whether cells of the host are split. */
+  static bool splits(const Parameters &prm)
+  {
+    return prm.get("Zone") != "fixed" && prm.get("Coarse cells") == "split";
+  }
+
+  /** The lattices of the host's cells; null where none is split. */
+  static std::shared_ptr<const SplitMesh>
+  split(const BodyRequest &request, const HexMesh &mesh, const double spacing)
+  {
+    if (!splits(request.prm))
+      return nullptr;
+    auto lattices = std::make_shared<const SplitMesh>(mesh, spacing);
+    return lattices->parts().second > 1 ? lattices : nullptr;
+  }
+
   std::string carved_from(const Parameters &prm) const override
   {
     return prm.get("Carve from");
@@ -218,15 +245,24 @@ public:
     // Rough, as the cells of a file have no one size.
     constexpr double tolerance = 0.1;
     const std::string entry = path + "/Nodal spacing";
+    const double asked = get_quantities(prm, "Nodal spacing")[0];
+    const bool is_finer =
+        file.is_set(entry) && asked < (1. - tolerance) * spacing;
+    if (prm.get("Zone") != "fixed" && prm.get("Coarse cells") == "by spacing")
+      prm.set("Coarse cells", is_finer ? "split" : "whole"); // for the same
+    if (is_finer && splits(prm))
+      return;
     char value[40];
     std::snprintf(value, sizeof(value), "%.10g mm", 1e3 * spacing);
-    if (file.is_set(entry) &&
-        std::abs(get_quantities(prm, "Nodal spacing")[0] / spacing - 1.) >
-            tolerance)
+    if (file.is_set(entry) && std::abs(asked / spacing - 1.) > tolerance)
       throw InputError(entry, "is " + prm.get("Nodal spacing") +
                                   ", but the particles are the nodes of cells "
                                   "of " +
-                                  value + "; set that or remove the entry");
+                                  value + "; set that or remove the entry" +
+                                  (is_finer && prm.get("Zone") != "fixed"
+                                       ? ", or let cells be split: \"Coarse "
+                                         "cells = split\""
+                                       : ""));
     prm.set("Nodal spacing", value); // for the expanded parameters
   }
 };

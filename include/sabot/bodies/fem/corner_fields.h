@@ -12,13 +12,15 @@
 namespace sabot
 {
 /**
- * Volume ratio and stress where the eighths of cells lie that go to their
- * corners. With the means M_a of cells and particle around each node, trilinear
- * in between, an eighth at the corner a of cell e has
+ * Volume ratio and stress where the shares of cells lie that go to their
+ * corners, or to the sites of their lattices. With the means M_a of cells and
+ * particle around each node, trilinear in between, a share of cell e with the
+ * middle xi has
  *
- *   s_ea = s_e + M(xi_a/2) - M(0),
+ *   s = s_e + M(xi) - M(0),
  *
- * so that those of a cell have its mean together. In one dimension a node gets
+ * xi = xi_a/2 for the eighth at corner a, so that those of a cell have its mean
+ * together. In one dimension a node gets
  * (-1, 9, 9, -1)/16 of the four cells around it, which keeps the amplitude of a
  * wave to the fourth order of its number, where the plain mean loses energy in
  * the second. What a node gets is bounded by what is around it: each value
@@ -34,12 +36,13 @@ public:
                const std::vector<std::size_t> &leaving,
                const std::vector<NodalMatter::Entry> &particles);
 
-  /** Into @p share, what a corner of cell @p e gets, volume and stress: those
-      of the cell so far. @p corner: 0 to 7. */
-  void move_to(const std::size_t e, const int corner,
+  /** Into @p share, a share of cell @p e, volume and stress: those of the cell
+      so far. @p middle: of the share, in [-1, 1]^3. */
+  void move_to(const std::size_t e, const std::array<double, 3> &middle,
                NodalMatter::Entry &share) const;
-  /** Bound the means of an owned node. */
-  void bound(NodalMatter::Entry &entry) const;
+  /** Bound the means by what is around these local nodes. */
+  void bound(const std::vector<std::size_t> &nodes,
+             NodalMatter::Entry &entry) const;
 
 private:
   static constexpr int n = 1 + n_symmetric;

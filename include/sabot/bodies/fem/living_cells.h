@@ -46,6 +46,9 @@ public:
   /** Number at the start of an active cell, and how many there were. */
   std::uint32_t initial_number(const std::size_t e) const { return initial[e]; }
   std::size_t n_initial() const { return alive.size(); }
+  /** Whether the cell of this number in the mesh is one of this rank's that are
+      left. */
+  bool has(const GlobalIndex cell) const;
 
   /** Before the cells' own visit: a reader must know which are left before it
       fills their arrays. */

@@ -27,10 +27,11 @@ struct ParticleFields;
 struct SpgOptions;
 
 /**
- * How an SPG body grows by what cells of its host give. Particle k is the node
- * host_nodes()[k] of the host; numbers go up in the order in which particles
- * came, and by the host's numbers among those that came together, so that local
- * numbers of those that are there never change and every rank agrees.
+ * How an SPG body grows by what cells of its host give. Particle k is the site
+ * sites()[k] of the host, a node or a point of the lattices of its cells;
+ * numbers go up in the order in which particles came, and by the sites' numbers
+ * among those that came together, so that local numbers of those that are there
+ * never change and every rank agrees.
  *
  * New particles come with F, state, volume and energies of their cells and with
  * the kernel H = F H_0 that they would have, had they been there since the
@@ -46,7 +47,10 @@ public:
   struct Rooms
   {
     const SpgOptions &options;
-    const ParticleCloud &cloud; // of all nodes of the host; stays
+    /** Of all nodes of the host; with lattices of the particles that there
+        are, by number, as there may be sites without end. Stays. */
+    ParticleCloud &cloud;
+    std::shared_ptr<const SplitMesh> lattices; // null: none
     NodalState &nodes;
     BondList &bonds;
     ParticleFields &fields;
@@ -67,16 +71,23 @@ public:
   };
   ParticleIntake(const Rooms &rooms) : body(rooms) {}
 
-  /** After distribute(): normals of the host's surface. */
+  /** After distribute(): normals of the host's surface, and which planes and
+      clamps may hold particles. */
   void set_up();
 
   void live_with(const std::vector<int> &owner) override
   {
     host_owner = &owner;
   }
-  void take(const NodalMatter &matter, const NodalState &host,
-            const unsigned int step, ExactSum &lost) override;
-  const std::vector<GlobalIndex> &host_nodes() const override { return hosts; }
+  void take(const NodalMatter &matter, const unsigned int step,
+            ExactSum &lost) override;
+  const std::vector<GlobalIndex> &sites() const override { return site; }
+  const std::shared_ptr<const SplitMesh> &lattices() const override
+  {
+    return body.lattices;
+  }
+  std::optional<std::size_t> particle_at(const GlobalIndex at) const override;
+  Vec free_components(const std::size_t k) const override;
   std::vector<std::size_t> failed_particles() const override;
   NodalMatter::Entry content(const std::size_t i) const override;
   void set_free(const std::size_t i) override;
@@ -98,27 +109,38 @@ public:
   void visit_state(StateVisitor &visitor);
 
 private:
-  /** Numbers for the nodes among the matter that are no particles yet; those of
-      this rank are returned. Collective. */
+  /** Numbers for the sites among the matter that are no particles yet; the
+      entries of those of this rank are returned. Collective. */
   std::vector<std::size_t> number_new();
-  /** Arrays for @p fresh more particles, at rest and undeformed. */
-  void extend(const std::vector<GlobalIndex> &new_hosts);
+  void forget_places();
+  /** Places, kernels and skin of particles from @p first on, where they are not
+      known yet; and who owns them. */
+  void learn_places(const std::size_t first);
+  /** Index in the cloud of particle number @p k. */
+  GlobalIndex place_of(const std::size_t k) const
+  {
+    return body.lattices ? GlobalIndex(k) : site[k];
+  }
+  /** Those of all particles. */
+  std::vector<GlobalIndex> places() const;
+  /** Arrays for the owned particles @p fresh, by number, at rest and
+      undeformed. */
+  void extend(const std::vector<GlobalIndex> &fresh);
   void fill_new(const std::size_t i, const std::size_t entry);
   void merge(const std::size_t i, const std::size_t entry);
   /** The present rows, and all pairs with a particle from @p first_new on. */
   BondList::Rows rows_with(const GlobalIndex first_new) const;
 
   const Rooms body;
-  std::vector<GlobalIndex> hosts; // of every particle, by number
-  std::unordered_map<GlobalIndex, std::size_t> local_of_host; // owned
-  ParticleSurface::Skin skin;  // of all nodes of the host
+  std::vector<GlobalIndex> site; // of every particle, by number
+  std::unordered_map<GlobalIndex, std::size_t> local_of_site; // owned
+  ParticleSurface::Skin skin;                                 // of the cloud
   double largest_spacing = 0.; // along the skin, of all particles [m]
   unsigned int n_taken = 0;
   GlobalIndex n_measured = 0; // particles at the last has_grown_much()
   const std::vector<int> *host_owner = nullptr;
   // While matter is taken
   const NodalMatter *matter = nullptr;
-  const NodalState *host = nullptr;
   ExactSum *lost = nullptr;
 };
 } // namespace sabot

@@ -54,9 +54,11 @@ public:
   /** Throws InputError, by the entry: a failure criterion that the material
       cannot answer, conduction without temperature or conductivity, faces of
       symmetry that are not a plane across an axis. Every rank has the whole
-      cloud here. */
+      cloud here. @p lattices: of a body that grows, into which cells of its
+      host are split; the cloud is that of the host's nodes. */
   SpgBody(const std::string &name, const int id, ParticleCloud cloud,
-          std::shared_ptr<const Material> material, const SpgOptions &options);
+          std::shared_ptr<const Material> material, const SpgOptions &options,
+          std::shared_ptr<const SplitMesh> lattices = nullptr);
 
   /** None of a body that grows: its particles are where the host's nodes are.
    */
