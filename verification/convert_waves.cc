@@ -129,7 +129,7 @@ std::vector<Check> pulse()
                         "1", "of what was sent", Check::Kind::at_most});
       checks.push_back({what + "energy lost", 0.,
                         std::abs(p.lost) + std::abs(p.kinetic),
-                        at_once ? 0.015 : 1e-4, "1", "", Check::Kind::at_most});
+                        at_once ? 5e-3 : 1e-4, "1", "", Check::Kind::at_most});
       checks.push_back({what + "energy residual", 0., p.residual, 1e-3, "1", "",
                         Check::Kind::at_most});
     }

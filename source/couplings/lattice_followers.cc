@@ -3,6 +3,7 @@
 
 #include "sabot/base/gather_all.h"
 #include "sabot/couplings/lattice_spin.h"
+#include "sabot/geometry/hex_mesh.h"
 
 #include <algorithm>
 
@@ -103,8 +104,57 @@ void LatticeFollowers::rebuild()
   handed.assign(leaders.size(), Vec{});
 }
 
+std::unordered_map<GlobalIndex, Mat>
+LatticeFollowers::slopes(const std::vector<Turning> &turned) const
+{
+  struct Slope
+  {
+    GlobalIndex node;
+    Mat gradient;
+  };
+  const NodalState &nodes = body.host.nodes();
+  std::vector<GlobalIndex> wanted;
+  for (const Turning &turning : turned)
+    for (const GlobalIndex a : lattices.nodes_of(turning.cell))
+      if (body.source.local_node(a) < nodes.n_owned)
+        wanted.push_back(a);
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  AlignedVector<Slope> mine;
+  for (const GlobalIndex a : wanted)
+  {
+    Slope slope{a, Mat::zero()};
+    double volume = 0.;
+    for (const GlobalIndex cell : lattices.cells_around(lattices.carrier(a)))
+    {
+      HexMesh one{{}, {{{0, 1, 2, 3, 4, 5, 6, 7}}}, {}, {}, {}};
+      std::array<Vec, 8> v;
+      for (int b = 0; b < 8; ++b)
+      {
+        const std::size_t at =
+            body.source.local_node(lattices.nodes_of(cell)[b]);
+        const Vec X = nodes.reference_position[at];
+        one.nodes.push_back({{X[0], X[1], X[2]}});
+        v[b] = nodes.velocity[at];
+      }
+      const MeanGradients mean = mean_gradients(one, 0);
+      for (int b = 0; b < 8; ++b)
+        add_outer(slope.gradient, v[b],
+                  mean.volume * vec(mean.B[b][0], mean.B[b][1], mean.B[b][2]));
+      volume += mean.volume;
+    }
+    slope.gradient = (1. / volume) * slope.gradient;
+    mine.push_back(slope);
+  }
+  std::unordered_map<GlobalIndex, Mat> all;
+  for (const Slope &slope : gather_all(mine, body.communicator))
+    all[slope.node] = slope.gradient;
+  return all;
+}
+
 std::vector<LatticeFollowers::Missing>
-LatticeFollowers::release(const NodalMatter &matter)
+LatticeFollowers::release(const NodalMatter &matter,
+                          const std::unordered_map<GlobalIndex, Mat> &slopes)
 {
   NodalState &particles = body.zone.nodes();
   const NodalState &nodes = body.host.nodes();
@@ -117,7 +167,15 @@ LatticeFollowers::release(const NodalMatter &matter)
     body.sink.set_free(i);
     const SplitMesh::Carrier on = lattices.carrier(entry.site);
     const double m = particles.lumped_mass[i];
-    const Vec x = particles.position[i], v = particles.velocity[i];
+    const Vec x = particles.position[i], X = particles.reference_position[i];
+    for (int a = 0; a < on.n; ++a)
+    {
+      const Vec from =
+          nodes.reference_position[body.source.local_node(on.node[a])];
+      particles.velocity[i] +=
+          (0.5 * on.weight[a]) * (slopes.at(on.node[a]) * (X - from));
+    }
+    const Vec v = particles.velocity[i];
     Missing one{entry.cell, entry.site, -m * v, -m * cross(x, v)};
     double kinetic = -0.5 * m * norm_square(v);
     for (int a = 0; a < on.n; ++a)
@@ -163,7 +221,7 @@ void LatticeFollowers::settle(
     const NodalMatter &matter, const std::vector<Turning> &turned,
     const std::vector<std::pair<std::size_t, std::size_t>> &shared)
 {
-  const std::vector<Missing> missing = release(matter);
+  const std::vector<Missing> missing = release(matter, slopes(turned));
   const std::vector<std::size_t> old_leaders = leaders;
   rebuild();
   set_inertia(matter, old_leaders, shared);

@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,14 @@ namespace sabot
  *   v_p = sum N_a v_a,  f_a += N_a f_p,  inertia_a = m_a + sum N_a m_p,
  *
  * until the last cell around them turns, and move by themselves from then on.
+ * They start with velocities of the next order, exact for fields that are
+ * quadratic in X,
+ *
+ *   v_p = sum N_a (v_a + G_a (X_p - X_a)/2),
+ *
+ * G_a the mean gradient of the cells around node a: linear ones in between lack
+ * kinetic energy of the second order in the length of a cell over the wave's.
+ * Of momenta nothing is lost (LatticeSpin).
  * Every follower is on the rank of its lowest node, which has all cells around
  * it; forces and masses go to other ranks' nodes by messages, summed in the
  * order of the particles' numbers.
@@ -91,8 +100,15 @@ private:
   GlobalIndex site_of(const std::size_t i) const;
   /** Followers by what particles are: leaders, terms, exchange. Collective. */
   void rebuild();
+  /** Gradients of the velocity by the undeformed place at the nodes of cells,
+      means over all cells of the mesh around them [1/s]; turned cells' nodes
+      move with their particles. Collective, the same on all ranks. */
+  std::unordered_map<GlobalIndex, Mat>
+  slopes(const std::vector<Turning> &turned) const;
   /** Sets those free whose last cell went. @return what is missing now. */
-  std::vector<Missing> release(const NodalMatter &matter);
+  std::vector<Missing>
+  release(const NodalMatter &matter,
+          const std::unordered_map<GlobalIndex, Mat> &slopes);
   void
   set_inertia(const NodalMatter &matter,
               const std::vector<std::size_t> &old_leaders,
