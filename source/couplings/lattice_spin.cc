@@ -111,13 +111,8 @@ std::vector<LatticeSpin::Member> LatticeSpin::members(const std::size_t k) const
   return all;
 }
 
-void LatticeSpin::solve(const std::vector<Missing> &missing)
+std::vector<LatticeSpin::Part> LatticeSpin::moments() const
 {
-  struct Part
-  {
-    std::size_t k;
-    Moment moment;
-  };
   std::vector<Part> mine;
   const NodalState &nodes = body.host.nodes();
   for (std::size_t k = 0; k < turned.size(); ++k)
@@ -140,12 +135,16 @@ void LatticeSpin::solve(const std::vector<Missing> &missing)
   std::vector<Part> parts = gather_all(mine, body.communicator);
   std::sort(parts.begin(), parts.end(),
             [](const Part &a, const Part &b) { return a.k < b.k; });
+  return parts;
+}
 
+void LatticeSpin::solve(const std::vector<Missing> &missing)
+{
   using Matrix = Eigen::Matrix<double, 6, 6>;
   using Column = Eigen::Matrix<double, 6, 1>;
   std::vector<Matrix> moment(pieces.size(), Matrix::Zero());
   std::vector<Column> lack(pieces.size(), Column::Zero());
-  for (const Part &part : parts)
+  for (const Part &part : moments())
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
         moment[piece_of[part.k]](i, j) += part.moment[i][j];
@@ -180,46 +179,45 @@ void LatticeSpin::solve(const std::vector<Missing> &missing)
   }
 }
 
+void LatticeSpin::add_impulses(const std::size_t k, Impulses &of_nodes,
+                               Impulses &of_particles) const
+{
+  const NodalState &nodes = body.host.nodes();
+  const Piece &piece = pieces[piece_of[k]];
+  const auto add = [](Impulses &to, const std::size_t i, const Vec impulse)
+  { to.emplace(i, Vec{}).first->second += impulse; };
+  for (const Member &member : members(k))
+  {
+    const Vec q =
+        member.mass * (member.free * (piece.u + cross(piece.theta, member.r)));
+    const bool is_node = member.site < lattices.n_nodes();
+    const std::size_t node = body.source.local_node(member.site);
+    const auto particle = body.sink.particle_at(member.site);
+    if (member.follows ||
+        (is_node && node < nodes.n_owned && !nodes.is_follower(node)))
+      for (int a = 0; a < member.on.n; ++a)
+      {
+        const std::size_t to = body.source.local_node(member.on.node[a]);
+        if (to < nodes.n_owned)
+          add(of_nodes, to, member.on.weight[a] * q);
+      }
+    else if (particle)
+      add(of_particles, *particle, q);
+  }
+}
+
 ExactSum LatticeSpin::give_back(const std::vector<Missing> &mine)
 {
   std::vector<Missing> missing = gather_all(mine, body.communicator);
   std::sort(missing.begin(), missing.end(),
             [](const Missing &a, const Missing &b) { return a.site < b.site; });
   solve(missing);
-  NodalState &nodes = body.host.nodes(), &particles = body.zone.nodes();
-  std::map<std::size_t, Vec> of_nodes, of_particles; // [N s], owned
-  const auto add =
-      [](std::map<std::size_t, Vec> &to, const std::size_t i, const Vec impulse)
-  {
-    const auto found = to.emplace(i, Vec{}).first;
-    found->second += impulse;
-  };
+  Impulses of_nodes, of_particles;
   for (std::size_t k = 0; k < turned.size(); ++k)
-  {
-    if (!is_known(k))
-      continue;
-    const Piece &piece = pieces[piece_of[k]];
-    for (const Member &member : members(k))
-    {
-      const Vec q = member.mass *
-                    (member.free * (piece.u + cross(piece.theta, member.r)));
-      const bool is_node = member.site < lattices.n_nodes();
-      const std::size_t node = body.source.local_node(member.site);
-      const auto particle = body.sink.particle_at(member.site);
-      if (member.follows ||
-          (is_node && node < nodes.n_owned && !nodes.is_follower(node)))
-        for (int a = 0; a < member.on.n; ++a)
-        {
-          const std::size_t to = body.source.local_node(member.on.node[a]);
-          if (to < nodes.n_owned)
-            add(of_nodes, to, member.on.weight[a] * q);
-        }
-      else if (particle)
-        add(of_particles, *particle, q);
-    }
-  }
+    if (is_known(k))
+      add_impulses(k, of_nodes, of_particles);
   ExactSum gained;
-  const auto kick = [&](NodalState &state, const std::map<std::size_t, Vec> &by)
+  const auto kick = [&](NodalState &state, const Impulses &by)
   {
     for (const auto &[i, impulse] : by)
     {
@@ -228,8 +226,8 @@ ExactSum LatticeSpin::give_back(const std::vector<Missing> &mine)
       state.velocity[i] += (1. / state.inertia[i]) * impulse;
     }
   };
-  kick(nodes, of_nodes);
-  kick(particles, of_particles);
+  kick(body.host.nodes(), of_nodes);
+  kick(body.zone.nodes(), of_particles);
   return gained;
 }
 } // namespace sabot

@@ -6,6 +6,37 @@
 
 namespace sabot
 {
+namespace
+{
+/** The quadrilaterals of one side of a lattice of @p n cells, 2 d for the lower
+    one across direction d. @p at_place: the node at a point of it. */
+template <typename AtPlace>
+void add_side(const unsigned int side, const unsigned int id,
+              const std::array<std::uint32_t, 3> &n, const AtPlace &at_place,
+              HexMesh &fine)
+{
+  // Outwards: from the second direction to the first on the lower side.
+  const unsigned int d = side / 2, upper = side % 2,
+                     a = (d + (upper ? 1 : 2)) % 3,
+                     b = (d + (upper ? 2 : 1)) % 3;
+  std::array<unsigned int, 3> p{};
+  p[d] = upper ? n[d] : 0;
+  for (unsigned int t = 0; t < n[b]; ++t)
+    for (unsigned int s = 0; s < n[a]; ++s)
+    {
+      const auto corner = [&](const unsigned int ds, const unsigned int dt)
+      {
+        p[a] = s + ds;
+        p[b] = t + dt;
+        return at_place(p);
+      };
+      fine.boundary_faces.push_back(
+          {{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}});
+      fine.boundary_id.push_back(id);
+    }
+}
+} // namespace
+
 HexMesh SplitMesh::fine_part(const std::vector<GlobalIndex> &some,
                              std::vector<GlobalIndex> &sites) const
 {
@@ -45,27 +76,7 @@ HexMesh SplitMesh::fine_part(const std::vector<GlobalIndex> &some,
         outside.begin(), outside.end(), c,
         [](const Outside &o, const GlobalIndex cell) { return o.cell < cell; });
     for (auto o = first; o != outside.end() && o->cell == c; ++o)
-    {
-      // Outwards: from the second direction to the first on the lower side.
-      const unsigned int d = o->side / 2, upper = o->side % 2,
-                         a = (d + (upper ? 1 : 2)) % 3,
-                         b = (d + (upper ? 2 : 1)) % 3;
-      Index p;
-      p[d] = upper ? n[d] : 0;
-      for (unsigned int t = 0; t < n[b]; ++t)
-        for (unsigned int s = 0; s < n[a]; ++s)
-        {
-          const auto corner = [&](const unsigned int ds, const unsigned int dt)
-          {
-            p[a] = s + ds;
-            p[b] = t + dt;
-            return at_place(p);
-          };
-          fine.boundary_faces.push_back(
-              {{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}});
-          fine.boundary_id.push_back(o->id);
-        }
-    }
+      add_side(o->side, o->id, n, at_place, fine);
   }
   for (const GlobalIndex site : sites)
   {

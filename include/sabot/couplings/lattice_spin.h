@@ -3,6 +3,8 @@
 
 #include "sabot/couplings/lattice_followers.h"
 
+#include <array>
+#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -52,10 +54,23 @@ private:
     Vec free, r;
     SplitMesh::Carrier on;
   };
+  struct Part
+  {
+    std::size_t k; // among the turned cells
+    Moment moment; // with lengths over the size of the piece
+  };
+  using Impulses = std::map<std::size_t, Vec>; // [N s], of owned ones
   void find_pieces();
   std::vector<Member> members(const std::size_t k) const;
+  /** Whether any node of turned cell @p k is owned here. */
   bool is_known(const std::size_t k) const;
+  /** By cells, the same on all ranks. Collective. */
+  std::vector<Part> moments() const;
+  /** u and theta of all pieces. Collective. */
   void solve(const std::vector<Missing> &missing);
+  /** What turned cell @p k gives to owned nodes and particles. */
+  void add_impulses(const std::size_t k, Impulses &of_nodes,
+                    Impulses &of_particles) const;
 
   const LatticeFollowers::Parts body;
   const SplitMesh &lattices;
