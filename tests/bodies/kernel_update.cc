@@ -151,7 +151,8 @@ double bound_over_frequency(SpgBody &body, const char *const form_name)
   form->allocate(rooms);
   form->renew_ghosts(rooms);
   form->follow_functions(rooms);
-  std::vector<double> rows = elastic_row_bounds(rooms);
+  std::vector<double> rows =
+      elastic_row_bounds(rooms, std::vector<char>(rooms.nodes.size(), 1));
   form->add_row_sums(rooms, rows);
   double square = 0.;
   for (std::size_t i = 0; i < rows.size(); ++i)

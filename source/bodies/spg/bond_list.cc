@@ -182,19 +182,24 @@ BondList::ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids)
   return ghosts;
 }
 
-void BondList::connect(const Rows &rows,
-                       const std::vector<GlobalIndex> &global_id,
+void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
                        const std::vector<int> &ghost_owner,
                        const GlobalIndex n_global, MPI_Comm comm)
 {
+  // What is found anew does not wait beside old and new rows.
+  AlignedVector<float>().swap(weight);
+  AlignedVector<float>().swap(scaled_weight);
+  std::vector<std::uint32_t>().swap(reverse);
   const std::size_t n_rows = rows.size();
+  const bool is_first = neighbor.empty();
   const bool has_all = n_rows == static_cast<std::size_t>(n_global);
   const NumberIndex of_owned(global_id.data(), n_rows),
       of_ghost(global_id.data() + n_rows, global_id.size() - n_rows);
   std::vector<std::size_t> new_start(n_rows + 1, 0);
   for (std::size_t i = 0; i < n_rows; ++i)
     new_start[i + 1] = new_start[i] + packed(rows[i].size());
-  std::vector<std::uint32_t> new_count(n_rows), new_origin(new_start[n_rows]);
+  std::vector<std::uint32_t> new_count(n_rows),
+      new_origin(is_first ? 0 : new_start[n_rows], is_new);
   AlignedVector<std::uint32_t> new_neighbor(new_start[n_rows]);
   for (std::size_t i = 0; i < n_rows; ++i)
   {
@@ -207,19 +212,17 @@ void BondList::connect(const Rows &rows,
     {
       while (old < last && id[neighbor[old]] < j)
         ++old;
-      const bool kept = old < last && id[neighbor[old]] == j;
-      new_origin[bond] = kept ? old : is_new;
+      if (old < last && id[neighbor[old]] == j)
+        new_origin[bond] = old;
       const std::size_t place = has_all ? j : of_owned(j);
       new_neighbor[bond] = place < n_rows ? place : n_rows + of_ghost(j);
       ++bond;
     }
     new_count[i] = rows[i].size();
     for (; bond < new_start[i + 1]; ++bond)
-    {
       new_neighbor[bond] = i;
-      new_origin[bond] = is_new;
-    }
   }
+  rows = Rows();
   communicator = comm;
   id = global_id;
   owner_of_ghost = ghost_owner;

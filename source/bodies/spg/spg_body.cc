@@ -39,27 +39,28 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       views(parts, surface, *stabilization, rank_of, communicator)
 {
   if (options.grows)
-    intake = std::make_unique<ParticleIntake>(ParticleIntake::Rooms{
-        this->options,
-        this->cloud,
-        std::move(lattices),
-        nodal_state,
-        bonds,
-        fields,
-        points,
-        kernel,
-        approximation,
-        surface,
-        *stabilization,
-        failure,
-        *residual_strength,
-        stable,
-        constraints,
-        rank_of,
-        node_owner,
-        n_global,
-        communicator,
-        [this](const unsigned int step) { update_kernel_and_forces(step); }});
+    intake = std::make_unique<ParticleIntake>(
+        ParticleIntake::Rooms{this->options,
+                              this->cloud,
+                              std::move(lattices),
+                              nodal_state,
+                              bonds,
+                              fields,
+                              points,
+                              kernel,
+                              approximation,
+                              surface,
+                              *stabilization,
+                              failure,
+                              *residual_strength,
+                              stable,
+                              constraints,
+                              rank_of,
+                              node_owner,
+                              n_global,
+                              communicator,
+                              [this](const unsigned int step)
+                              { update_kernel_and_forces(step, false); }});
   else
     outline = outline_of(this->cloud, options.symmetry_faces);
   prescribed_velocities = &constraints;
@@ -130,13 +131,15 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   else
     cloud = ParticleCloud();
   fields.allocate(volume, law.stiffens());
+  // Before the calibration, which takes the most memory of all.
+  std::vector<double>().swap(volume);
+  std::vector<GlobalIndex>().swap(ids);
   points.allocate(n, n);
   approximation.allocate(n);
   failure.allocate(n, *residual_strength);
   stable.allocate(n);
   stabilization->allocate(parts);
-  renumber(rows);
-  rows = BondList::Rows(); // before the calibration's peak of memory
+  renumber(std::move(rows));
 
   kernel.start(fields, node_exchange);
   fields.kernel_reference_position = nodal_state.position;
@@ -153,7 +156,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   heat.set_up(parts, failure, communicator);
 }
 
-void SpgBody::renumber(const BondList::Rows &rows)
+void SpgBody::renumber(BondList::Rows rows)
 {
   const std::size_t n = nodal_state.n_owned;
   std::vector<GlobalIndex> ids(nodal_state.global_id.begin(),
@@ -176,7 +179,7 @@ void SpgBody::renumber(const BondList::Rows &rows)
   node_exchange.update(nodal_state.velocity.data());
   node_exchange.update(nodal_state.lumped_mass.data());
   node_exchange.update(nodal_state.inertia.data());
-  bonds.connect(rows, ids, ghost_owner, n_global, communicator);
+  bonds.connect(std::move(rows), ids, ghost_owner, n_global, communicator);
   fields.resize(ids.size());
   failure.renew_ghosts(node_exchange, ids.size());
   stabilization->carry_bonds(bonds);
@@ -230,23 +233,27 @@ bool SpgBody::update_topology(const unsigned int step, const double time)
     return failure.find(nodal_state, bonds, fields, points, node_exchange,
                         communicator);
   };
+  constexpr double by_cracks = 1., by_strain = 2.;
   double due = kernel.has_changed(watch.largest_change) ||
-               (regular && kernel.has_strained(fields));
-  if (looks)
-    due = std::max(due, double(find_failed()));
+                       (regular && kernel.has_strained(fields))
+                   ? by_strain
+                   : 0.;
+  if (looks && find_failed())
+    due = std::max(due, by_cracks);
   MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_DOUBLE, MPI_MAX, communicator);
   if (due > 0.)
   {
     if (!looks)
       find_failed();
-    update_kernel_and_forces(step);
+    update_kernel_and_forces(step, due == by_cracks);
   }
   stabilization->after_step(parts, step);
   heat.advance(time, options.conduction_interval, points);
   return due > 0.;
 }
 
-void SpgBody::update_kernel_and_forces(const unsigned int step)
+void SpgBody::update_kernel_and_forces(const unsigned int step,
+                                       const bool only_cracks)
 {
   // The next step begins with half a kick by these forces, and the ledger will
   // count the work that the new bonds and functions do along it.
@@ -254,7 +261,7 @@ void SpgBody::update_kernel_and_forces(const unsigned int step)
   AlignedVector<Vec> added(n);
   for (std::size_t i = 0; i < n; ++i)
     added[i] = nodal_state.force[i] - fields.own_force[i];
-  update_kernel(step);
+  update_kernel(step, only_cracks);
   evaluate_forces(no_step); // no problem where nothing is deformed yet
   for (std::size_t i = 0; i < n; ++i)
     nodal_state.force[i] += added[i];
@@ -267,10 +274,11 @@ void SpgBody::update_functions()
   stabilization->follow_functions(parts);
 }
 
-void SpgBody::update_kernel(const unsigned int step)
+void SpgBody::update_kernel(const unsigned int step, const bool only_cracks)
 {
   const std::size_t n = nodal_state.n_owned;
   stabilization->begin_kernel_update(parts);
+  stable.carry(fields);
   kernel.follow(fields);
   if (failure.keeps_crumbled())
     for (std::size_t i = 0; i < n; ++i)
@@ -304,7 +312,8 @@ void SpgBody::update_kernel(const unsigned int step)
     failure.forget_marks();
     node_exchange.update(fields.kernel.data());
   }
-  if (intake && intake->is_waiting())
+  const bool grows = intake && intake->is_waiting();
+  if (grows)
   {
     renumber(intake->grow());
     node_exchange.update(fields.kernel.data());
@@ -324,7 +333,11 @@ void SpgBody::update_kernel(const unsigned int step)
     if (just_lost || failure.n_failed[i] != failed_before[i])
       failure.loss[i] += held[i] - stabilization->held_energy(parts, i);
   }
-  stable.estimate(parts, *stabilization);
+  // Where nothing but cracks calls for the update, metal away from them has
+  // hardly changed since the last one; all are measured every interval.
+  only_cracks && !searches && !grows && !kernel.is_regular_step(step)
+      ? stable.estimate_beside_cracks(parts, *stabilization)
+      : stable.estimate(parts, *stabilization);
   ++watch.n_updates;
   const bool has_grown = intake && intake->has_grown_much();
   if (n_global > 1 &&

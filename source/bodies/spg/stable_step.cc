@@ -40,15 +40,41 @@ std::vector<double> moving_masses(const NodalState &nodes)
 
 void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form)
 {
+  estimate(body, form, std::vector<char>(body.nodes.size(), 1));
+}
+
+void SpgStableStep::estimate_beside_cracks(const SpgParts &body,
+                                           const Stabilization &form)
+{
+  estimate(body, form, beside_cracks(body));
+}
+
+void SpgStableStep::carry(const ParticleFields &fields)
+{
+  for (std::size_t i = 0; i < step.size(); ++i)
+  {
+    const Mat F_inverse = inverse(fields.incremental_deformation_gradient[i]);
+    double compression = -2.;
+    for (const Vec row : F_inverse.row)
+      compression += norm_square(row);
+    step[i] /= std::sqrt(std::max(1., compression));
+  }
+}
+
+void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form,
+                             const std::vector<char> &wanted)
+{
   const NodalState &nodes = body.nodes;
   const Material &law = body.points.law();
   const double c = law.sound_speed();
-  const std::vector<double> rows = elastic_row_bounds(body);
+  const std::vector<double> rows = elastic_row_bounds(body, wanted);
   const std::vector<double> mass = moving_masses(nodes);
   std::vector<double> springs(nodes.n_owned, 0.);
   form.add_row_sums(body, springs);
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
+    if (!wanted[i])
+      continue;
     const double omega_square = (rows[i] + springs[i]) / mass[i];
     step[i] = (!body.failure.has_cracks(i) ? factor : 1.) *
               (omega_square > 0. ? 2. / std::sqrt(omega_square)
@@ -156,46 +182,50 @@ double largest_frequency(const SpgParts &body, Stabilization &form,
   // Symmetric variables y = sqrt(m) v.
   const NodalState &nodes = body.nodes;
   const std::size_t n_owned = nodes.n_owned;
-  AlignedVector<Vec> motion(nodes.size()), force(nodes.size()), now(n_owned),
-      before(n_owned, Vec{}), next(n_owned);
+  // At the peak of memory: y now is motion over root, and not kept.
+  AlignedVector<Vec> motion(nodes.size()), next(n_owned),
+      before(n_owned, Vec{});
   std::vector<double> root(n_owned);
-  const auto product =
-      [&](const AlignedVector<Vec> &a, const AlignedVector<Vec> &b)
+  const auto product = [&](const auto &dot_of)
   {
     ExactSum sum;
     for (std::size_t i = 0; i < n_owned; ++i)
-      sum.add(dot(a[i], b[i]));
+      sum.add(dot_of(i));
     ExactSum::reduce({&sum}, communicator);
     return sum.value();
   };
-  start_lanczos(nodes, now, root);
-  const double size = std::sqrt(product(now, now));
-  for (Vec &v : now)
-    v /= size;
+  start_lanczos(nodes, motion, root);
+  const double size = std::sqrt(
+      product([&](const std::size_t i) { return dot(motion[i], motion[i]); }));
+  for (std::size_t i = 0; i < n_owned; ++i)
+    motion[i] *= root[i] / size;
+  const auto now = [&](const std::size_t i) { return motion[i] / root[i]; };
   std::vector<double> diagonal, off_diagonal;
   // Eigenvalues in units of (c / spacing)^2 keep the exact sums in range.
   const double scale =
       std::pow(body.kernel.mean_spacing() / body.points.law().sound_speed(), 2);
   for (unsigned int k = 0; k < n; ++k)
   {
-    for (std::size_t i = 0; i < n_owned; ++i)
-      motion[i] = root[i] * now[i];
     body.exchange.update(motion.data());
-    form.apply_linearized(body, motion, force);
+    form.apply_linearized(body, motion, next);
     for (std::size_t i = 0; i < n_owned; ++i)
-      next[i] = -scale * root[i] * force[i];
-    const double alpha = product(now, next);
+      next[i] *= -scale * root[i];
+    const double alpha =
+        product([&](const std::size_t i) { return dot(now(i), next[i]); });
     diagonal.push_back(alpha);
     const double last = off_diagonal.empty() ? 0. : off_diagonal.back();
     for (std::size_t i = 0; i < n_owned; ++i)
-      next[i] -= alpha * now[i] + last * before[i];
-    const double beta = std::sqrt(product(next, next));
+      next[i] -= alpha * now(i) + last * before[i];
+    const double beta = std::sqrt(
+        product([&](const std::size_t i) { return dot(next[i], next[i]); }));
     if (!(beta > 1e-9) || k + 1 == n)
       break;
     off_diagonal.push_back(beta);
-    before.swap(now);
     for (std::size_t i = 0; i < n_owned; ++i)
-      now[i] = next[i] / beta;
+    {
+      before[i] = now(i);
+      motion[i] = root[i] / beta * next[i];
+    }
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   const Eigen::Index m = diagonal.size();

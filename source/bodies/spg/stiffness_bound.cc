@@ -122,9 +122,9 @@ struct GradientSums
 /** What each particle's stiffness has to do with its neighbors. */
 struct Elements
 {
-  AlignedVector<Mat> inverse_moment; // with ghosts; least squares only
-  std::vector<double> bulk, shear;   // V lambda s, 2 V mu l, with ghosts
-  AlignedVector<Vec> own;            // g of the particle itself, owned
+  const Mat *inverse_moment = nullptr; // with ghosts; least squares only
+  std::vector<double> bulk, shear;     // V lambda s, 2 V mu l, with ghosts
+  AlignedVector<Vec> own;              // g of the particle itself, owned
 };
 
 /** Gradients of the functions of four bonds, seen from particle @p i. */
@@ -172,8 +172,19 @@ void gradients_there(const SpgParts &body, const Elements &elements,
   }
 }
 
-/** The first half: s and l of every particle. Collective. */
-Elements find_elements(const SpgParts &body)
+/** Whether a mark stands at owned particle @p i or one of its neighbors. */
+bool is_near(const BondList &bonds, const std::vector<char> &marked,
+             const std::size_t i)
+{
+  bool any = marked[i];
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i) && !any; ++b)
+    any = marked[bonds.neighbor[b]];
+  return any;
+}
+
+/** The first half: s and l of every particle that the rows of the wanted ones
+    ask for. Collective. */
+Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
 {
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
@@ -187,6 +198,8 @@ Elements find_elements(const SpgParts &body)
   Matrices G(n);
   for (std::size_t i = 0; i < n; ++i)
   {
+    if (!is_near(bonds, wanted, i))
+      continue;
     GradientSums sums;
     for (std::uint32_t b = bonds.begin(i); b < bonds.packed_end(i);
          b += n_lanes)
@@ -216,23 +229,46 @@ Elements find_elements(const SpgParts &body)
   body.exchange.update(elements.shear.data());
   if (!body.approximation.stores_gradients())
   {
-    elements.inverse_moment = body.approximation.moment_inverse;
-    elements.inverse_moment.resize(body.nodes.size());
-    body.exchange.update(elements.inverse_moment.data());
+    const AlignedVector<Mat> &owned = body.approximation.moment_inverse;
+    elements.inverse_moment = owned.data();
+    if (!body.exchange.is_trivial())
+    {
+      // In the place of the step's stress, which is found anew.
+      AlignedVector<Mat> &place = body.fields.generalized_stress;
+      std::copy(owned.begin(), owned.end(), place.begin());
+      body.exchange.update(place.data());
+      elements.inverse_moment = place.data();
+    }
   }
   return elements;
 }
 } // namespace
 
-std::vector<double> elastic_row_bounds(const SpgParts &body)
+std::vector<char> beside_cracks(const SpgParts &body)
+{
+  const std::size_t n = body.nodes.n_owned;
+  std::vector<char> cracked(body.nodes.size()), beside(body.nodes.size());
+  for (std::size_t i = 0; i < n; ++i)
+    cracked[i] = body.failure.has_cracks(i);
+  body.exchange.update(cracked.data());
+  for (std::size_t i = 0; i < n; ++i)
+    beside[i] = is_near(body.bonds, cracked, i);
+  body.exchange.update(beside.data());
+  return beside;
+}
+
+std::vector<double> elastic_row_bounds(const SpgParts &body,
+                                       const std::vector<char> &wanted)
 {
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
-  const Elements elements = find_elements(body);
+  const Elements elements = find_elements(body, wanted);
   std::vector<double> rows(n);
   Matrices R(n);
   for (std::size_t i = 0; i < n; ++i)
   {
+    if (!wanted[i])
+      continue;
     GradientSums sums;
     for (std::uint32_t b = bonds.begin(i); b < bonds.packed_end(i);
          b += n_lanes)

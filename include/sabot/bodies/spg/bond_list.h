@@ -8,6 +8,7 @@
 #include "sabot/bodies/spg/bond_rows.h"
 #include "sabot/kernels/vec.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -75,13 +76,14 @@ public:
   static std::vector<GlobalIndex>
   ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids);
 
-  /** Take over @p rows when ghosts are numbered. @p global_id of all local
+  /** Take over @p rows when ghosts are numbered; they are let go on the way.
+      @p global_id of all local
       particles, owners of the ghosts. Collective. Rows [n_owned] ascend.
       Weights are not those of the new bonds before
       ParticleApproximation::update(); origin remembers
       which bonds were there before, for carry(). Throws std::logic_error where
       a bond is there from one end only. */
-  void connect(const Rows &rows, const std::vector<GlobalIndex> &global_id,
+  void connect(Rows rows, const std::vector<GlobalIndex> &global_id,
                const std::vector<int> &ghost_owner, const GlobalIndex n_global,
                MPI_Comm communicator);
 
@@ -101,13 +103,32 @@ public:
   template <typename Array>
   void carry(Array &data) const
   {
-    Array old;
-    old.swap(data);
-    data.resize(n_with_ghosts());
+    // In place, for such arrays are the largest that there are. Bonds keep
+    // their order: those that move down find room from the first on, those
+    // that move up from the last.
+    const typename Array::value_type none = {};
+    if (origin.empty())
+      return data.assign(n_with_ghosts(), none);
+    data.reserve(n_with_ghosts());
+    data.resize(std::max(data.size(), n_with_ghosts()));
     for (std::size_t i = 0; i < n_owned; ++i)
       for (std::size_t b = begin(i); b < end(i); ++b)
-        if (origin[b] != is_new)
-          data[b] = old[origin[b]];
+        if (origin[b] != is_new && origin[b] > b)
+          data[b] = data[origin[b]];
+    for (std::size_t i = n_owned; i-- > 0;)
+      for (std::size_t b = end(i); b-- > begin(i);)
+        if (origin[b] < b)
+          data[b] = data[origin[b]];
+    for (std::size_t i = 0; i < n_owned; ++i)
+    {
+      for (std::size_t b = begin(i); b < end(i); ++b)
+        if (origin[b] == is_new)
+          data[b] = none;
+      for (std::size_t b = end(i); b < row_start[i + 1]; ++b)
+        data[b] = none;
+    }
+    std::fill(data.begin() + capacity(), data.end(), none);
+    data.resize(n_with_ghosts());
   }
 
   /** All arrays have been carried: forget where bonds were. */
@@ -189,8 +210,9 @@ private:
   }
 
   std::vector<std::size_t> row_start;
-  std::vector<std::uint32_t> origin; // before the last change, of carry()
-  std::vector<GlobalIndex> id;       // global numbers of local particles
+  /** Before the last change, of carry(); empty where there were no bonds. */
+  std::vector<std::uint32_t> origin;
+  std::vector<GlobalIndex> id; // global numbers of local particles
   std::vector<int> owner_of_ghost;
   GlobalIndex n_total = 0;
   std::size_t n_owned = 0;

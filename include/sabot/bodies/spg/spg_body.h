@@ -175,7 +175,7 @@ private:
       positions, velocities and masses of ghosts, ghosts' bonds, room in the
       fields, and what the form keeps per bond. Kernels of ghosts are up to
       the caller. */
-  void renumber(const BondList::Rows &rows);
+  void renumber(BondList::Rows rows);
   /** Functions of the present kernels, and what follows from them. At
       kernel_reference_position, with the kernels of owned and ghost
       particles up to date. Collective. */
@@ -186,12 +186,14 @@ private:
       lost a direction lets go of the stress that it cannot bear. What the
       form held before less what it holds after counts as failure [J] where
       bonds or directions were lost. Then the stable steps, calibrated where
-      that is due. */
-  void update_kernel(const unsigned int step);
+      that is due. @p only_cracks: nothing else calls for the update, and only
+      particles beside cracks get their stable steps anew. */
+  void update_kernel(const unsigned int step, const bool only_cracks);
   /** The same, with the forces of now in the end. What couplings had added
       to the body's forces is kept: the half kick that follows uses the sum,
       and the ledger counts its work. Collective. */
-  void update_kernel_and_forces(const unsigned int step);
+  void update_kernel_and_forces(const unsigned int step,
+                                const bool only_cracks);
   /** Forces of now, material advanced by @p dt; the body's part is kept.
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */

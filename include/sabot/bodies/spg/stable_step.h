@@ -13,6 +13,7 @@
 namespace sabot
 {
 class Stabilization;
+struct ParticleFields;
 struct SpgParts;
 
 /**
@@ -49,6 +50,13 @@ public:
       spacings over the wave speed. Particles with failed bonds get the bound
       without the factor. */
   void estimate(const SpgParts &body, const Stabilization &form);
+  /** The same of the particles beside cracks only, whose bonds may be others
+      than at the last update; all others keep their steps. Collective. */
+  void estimate_beside_cracks(const SpgParts &body, const Stabilization &form);
+  /** Before a kernel update: what has shortened steps since the last one stays
+      in those that are not estimated anew, dt/sqrt(max(1, |F^-1|^2 - 2)) as
+      within a step (step_as_stiff_as_now()). Local. */
+  void carry(const ParticleFields &fields);
   /** Measure the factor anew. @p step_number: now; 0: the body's first, from
       which later factors may not go up. Collective. factor = 0.99
       sqrt(3)/(omega_max least bound), between 1 and that of the start,
@@ -89,6 +97,8 @@ private:
     double intact, cracked;
   };
   Bounds least_bounds(const SpgParts &body, MPI_Comm communicator) const;
+  void estimate(const SpgParts &body, const Stabilization &form,
+                const std::vector<char> &wanted);
 
   std::vector<double> step; // [s]
   double factor = 1.;       // proven part by which the bound is too short

@@ -44,8 +44,14 @@ double stiffness_share(const SpgParts &body, const std::size_t i);
  * absolute values, V_N rho c^2 s_N |g|, which a neighborhood on a line has.
  * V_N times stiffness_share(). Owned particles; collective: inverse moments of
  * ghosts are exchanged. Equal bits on every number of ranks.
+ * @param wanted  [n_local] whose rows are asked for; zero for all others
  */
-std::vector<double> elastic_row_bounds(const SpgParts &body);
+std::vector<double> elastic_row_bounds(const SpgParts &body,
+                                       const std::vector<char> &wanted);
+
+/** Of owned particles and ghosts, those with cracks and those that share a bond
+    with one. Collective. */
+std::vector<char> beside_cracks(const SpgParts &body);
 } // namespace sabot
 
 #endif

@@ -3,8 +3,8 @@
 
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/kernels/bond_pack.h"
 #include "sabot/kernels/kernel_function.h"
-#include "sabot/kernels/pack.h"
 #include "sabot/kernels/principal.h"
 
 #include <algorithm>
@@ -20,68 +20,87 @@ constexpr double lost_fraction = 0.15;
 /** Fewer bonds than this never span space. */
 constexpr std::size_t least_bonds = 4;
 
-/** Bonds of one particle: offsets in space and in the space of the kernels of
-    both ends, then weights, four at a time. Every row starts a pack of its own,
-    so that the bits do not depend on what stands before it. */
-template <typename Kernel>
-class RowWeights
+/** Sums over the bonds of one particle, four at a time; xi are offsets in the
+    space of its own kernel. */
+struct MomentSums
 {
-public:
-  void start(const std::size_t n_bonds)
-  {
-    n = n_bonds;
-    const std::size_t n_padded = (n + n_lanes - 1) / n_lanes * n_lanes;
-    if (dX.size() < n_padded)
-    {
-      for (AlignedVector<Vec> *const offsets : {&dX, &here, &there})
-        offsets->resize(n_padded);
-      for (AlignedVector<double> *const values : {&weight, &scaled, &square})
-        values->resize(n_padded);
-    }
-    // Lanes without a bond: any numbers that are never infinite.
-    for (std::size_t b = n; b < n_padded; ++b)
-      dX[b] = here[b] = there[b] = vec(1., 1., 1.);
-  }
-  void set(const std::size_t b, const Vec offset, const Mat &here_columns,
-           const Mat &there_columns)
-  {
-    dX[b] = offset;
-    here[b] = multiply_columns(here_columns, offset);
-    there[b] = multiply_columns(there_columns, offset);
-  }
-  /** w, w mean |xi|^2/|dX|^2 and w mean |xi|^2 of all bonds. */
-  void find()
-  {
-    const auto norm_square = [](const Pack v[3])
-    { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
-    for (std::uint32_t b = 0; b < n; b += n_lanes)
-    {
-      const std::uint32_t lanes[n_lanes] = {b, b + 1, b + 2, b + 3};
-      Pack xi[3], xi_there[3], offset[3];
-      gather(here.data(), lanes, xi);
-      gather(there.data(), lanes, xi_there);
-      gather(dX.data(), lanes, offset);
-      // As stored, which makes the functions exact for linear fields.
-      const Pack w = to_double(to_float(
-                     0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there)))),
-                 mean = 0.5 * w * (norm_square(xi) + norm_square(xi_there)),
-                 distance = norm_square(offset);
-      // Loose particles on an axis of symmetry may be pressed onto each other.
-      const Pack one = {1., 1., 1., 1.}, zero = {};
-      store_pack(&weight[b], w);
-      store_pack(&square[b], mean);
-      store_pack(&scaled[b], distance > 0.
-                                 ? mean / (distance > 0. ? distance : one)
-                                 : zero);
-    }
-  }
+  Pack moment[6] = {}; // w xi (x) xi: xx, yy, zz, xy, yz, xz
+  Pack square = {};    // w mean |xi|^2
 
-  AlignedVector<Vec> dX, here, there;           // [m], xi by both kernels
-  AlignedVector<double> weight, scaled, square; // [-], [1/m^2], [-]
-
-private:
-  std::size_t n = 0;
+  void add(const Pack w, const Pack mean, const Pack xi[3])
+  {
+    const Pack weighted[3] = {w * xi[0], w * xi[1], w * xi[2]};
+    for (int d = 0; d < 3; ++d)
+    {
+      moment[d] += weighted[d] * xi[d];
+      moment[3 + d] += weighted[d == 1] * xi[d == 0 ? 1 : 2];
+    }
+    square += mean;
+  }
+  /** The moment, and in @p spread the sum of the squares. */
+  Mat matrix(double &spread) const
+  {
+    const Pack zero = {},
+               diagonal = sum_lanes(moment[0], moment[1], moment[2], square),
+               mixed = sum_lanes(moment[3], moment[4], moment[5], zero);
+    spread = diagonal[3];
+    return {{vec(diagonal[0], mixed[0], mixed[2]),
+             vec(mixed[0], diagonal[1], mixed[1]),
+             vec(mixed[2], mixed[1], diagonal[2])}};
+  }
 };
+
+/** One for both ends of a bond, whose weights must be the same to the bit. */
+inline Pack dot(const Pack a[3], const Pack b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** Weights of the bonds of particle @p i, and their sums. @p to_kernel: H^-1 of
+    all particles. */
+template <typename Kernel>
+MomentSums weigh_bonds(BondList &bonds, const Vec *const X,
+                       const Mat *const to_kernel, const std::size_t i)
+{
+  const Mat here = to_kernel[i];
+  const Vec Xi = X[i];
+  const Pack zero = {}, one = in_all(1.), places = {0., 1., 2., 3.};
+  MomentSums sums;
+  for (std::size_t b = bonds.begin(i), end = bonds.end(i); b < end;
+       b += n_lanes)
+  {
+    const std::uint32_t *const j = &bonds.neighbor[b];
+    Pack dX[3], xi[3], xi_there[3];
+    gather(X, j, dX);
+    for (int d = 0; d < 3; ++d)
+      dX[d] -= Xi[d];
+    for (std::uint32_t d = 0; d < 3; ++d)
+    {
+      const std::uint32_t row[n_lanes] = {3 * j[0] + d, 3 * j[1] + d,
+                                          3 * j[2] + d, 3 * j[3] + d};
+      Pack H[3];
+      gather(to_kernel[0].row, row, H);
+      xi_there[d] = dot(H, dX);
+      const Pack of_here[3] = {in_all(here(d, 0)), in_all(here(d, 1)),
+                               in_all(here(d, 2))};
+      xi[d] = dot(of_here, dX);
+    }
+    // As stored, which makes the functions exact for linear fields; none in
+    // places without a bond.
+    const Pack phi = to_double(
+        to_float(0.5 * (Kernel::weight(xi) + Kernel::weight(xi_there))));
+    const Pack w = places < in_all(double(end - b)) ? phi : zero;
+    const Pack mean = 0.5 * w * (dot(xi, xi) + dot(xi_there, xi_there)),
+               distance = dot(dX, dX);
+    sums.add(w, mean, xi);
+    // Loose particles on an axis of symmetry may be pressed onto each other.
+    const Pack scaled =
+        distance > 0. ? mean / (distance > 0. ? distance : one) : zero;
+    *reinterpret_cast<HalfPack *>(&bonds.weight[b]) = to_float(w);
+    *reinterpret_cast<HalfPack *>(&bonds.scaled_weight[b]) = to_float(scaled);
+  }
+  return sums;
+}
 } // namespace
 
 ParticleApproximation::ParticleApproximation(const SpgOptions &options)
@@ -128,31 +147,15 @@ void ParticleApproximation::find_moments(BondList &bonds,
     intact_eigenvalue.resize(n);
     intact_spread.resize(n);
   }
-  AlignedVector<Mat> to_kernel(kernel.size()); // H^-1 by columns
+  AlignedVector<Mat> to_kernel(kernel.size()); // H^-1
   for (std::size_t i = 0; i < kernel.size(); ++i)
-    to_kernel[i] = transpose(inverse(kernel[i]));
-  RowWeights<Kernel> row;
+    to_kernel[i] = inverse(kernel[i]);
   for (std::size_t i = 0; i < n; ++i)
   {
-    const std::size_t first = bonds.begin(i), n_bonds = bonds.n_bonds(i);
-    const Mat here = to_kernel[i];
-    row.start(n_bonds);
-    for (std::size_t b = 0; b < n_bonds; ++b)
-    {
-      const std::uint32_t j = bonds.neighbor[first + b];
-      row.set(b, X[j] - X[i], here, to_kernel[j]);
-    }
-    row.find();
-    std::copy_n(row.weight.begin(), n_bonds, bonds.weight.begin() + first);
-    std::copy_n(row.scaled.begin(), n_bonds,
-                bonds.scaled_weight.begin() + first);
-    Mat M = Mat::zero();
-    double sum = 0.;
-    for (std::size_t b = 0; b < n_bonds; ++b)
-    {
-      sum += row.square[b];
-      add_outer(M, row.weight[b] * row.here[b], row.here[b]);
-    }
+    const std::size_t n_bonds = bonds.n_bonds(i);
+    double sum;
+    const Mat M =
+        weigh_bonds<Kernel>(bonds, X, to_kernel.data(), i).matrix(sum);
     spread[i] = sum;
     if (intact || (!has_grown.empty() && has_grown[i]))
     {
@@ -165,7 +168,8 @@ void ParticleApproximation::find_moments(BondList &bonds,
         n_bonds < least_bonds
             ? Mat::zero()
             : damped_inverse(M, lost_fraction * intact_eigenvalue[i], n_damped);
-    moment_inverse[i] = here * inverse_moment * transpose(here);
+    const Mat &here = to_kernel[i];
+    moment_inverse[i] = transpose(here) * inverse_moment * here;
     // Nor is a crack that has opened healed before it closes: the pressure goes
     // by the volume, and would spring up.
     lost_direction[i] = n_damped > 0 || (lost_direction[i] &&

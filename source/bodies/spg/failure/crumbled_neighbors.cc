@@ -1,14 +1,15 @@
 // Neighbors of metal that has crumbled: those that are near now.
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 
-#include "sabot/base/gather_all.h"
 #include "sabot/base/nodal_state.h"
+#include "sabot/base/send_some.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -24,19 +25,67 @@ struct Crumb
   Vec x; // now [m]
 };
 
-/** Those of all ranks, by number. */
-AlignedVector<Crumb> gather_crumbs(const NodalState &nodes,
-                                   const BondFailure &failure,
-                                   MPI_Comm communicator)
+/** The box around a rank's crumbs, with the reach around it [m]. */
+struct CrumbBox
 {
-  AlignedVector<Crumb> mine;
+  double low[3], high[3];
+  bool contains(const Vec x) const
+  {
+    bool inside = true;
+    for (int d = 0; d < 3; ++d)
+      inside = inside && low[d] <= x[d] && x[d] <= high[d];
+    return inside;
+  }
+};
+
+std::vector<CrumbBox> boxes_of_ranks(const std::vector<Crumb> &mine,
+                                     const double reach, MPI_Comm communicator)
+{
+  CrumbBox box;
+  for (int d = 0; d < 3; ++d)
+  {
+    box.low[d] = 1e300;
+    box.high[d] = -1e300;
+    for (const Crumb &crumb : mine)
+    {
+      box.low[d] = std::min(box.low[d], crumb.x[d] - reach);
+      box.high[d] = std::max(box.high[d], crumb.x[d] + reach);
+    }
+  }
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  std::vector<CrumbBox> boxes(n_ranks);
+  MPI_Allgather(&box, 6, MPI_DOUBLE, boxes.data(), 6, MPI_DOUBLE, communicator);
+  return boxes;
+}
+
+/** This rank's and those of others that may be closer than @p reach [m] to one
+    of them, by number. */
+std::vector<Crumb> gather_crumbs(const NodalState &nodes,
+                                 const BondFailure &failure, const double reach,
+                                 MPI_Comm communicator)
+{
+  std::vector<Crumb> mine;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     if (failure.has_crumbled(i))
       mine.push_back({nodes.global_id[i], nodes.position[i]});
-  AlignedVector<Crumb> all = gather_all(mine, communicator);
-  std::sort(all.begin(), all.end(),
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  constexpr double round_off = 1. + 1e-9;
+  const std::vector<CrumbBox> boxes =
+      boxes_of_ranks(mine, round_off * reach, communicator);
+  std::vector<std::vector<Crumb>> to_rank(boxes.size());
+  for (std::size_t r = 0; r < boxes.size(); ++r)
+    if (int(r) == rank)
+      to_rank[r] = mine;
+    else
+      std::copy_if(mine.begin(), mine.end(), std::back_inserter(to_rank[r]),
+                   [&](const Crumb &crumb)
+                   { return boxes[r].contains(crumb.x); });
+  std::vector<Crumb> near = send_some(to_rank, communicator);
+  std::sort(near.begin(), near.end(),
             [](const Crumb &a, const Crumb &b) { return a.id < b.id; });
-  return all;
+  return near;
 }
 /** Crumbs in the order of the cubes of edge @p reach [m] in which they lie.
     Cubes are numbered from the lowest corner, x first, so that those beside one
@@ -45,7 +94,7 @@ AlignedVector<Crumb> gather_crumbs(const NodalState &nodes,
 class SortedCrumbs
 {
 public:
-  SortedCrumbs(const AlignedVector<Crumb> &crumbs, const double reach)
+  SortedCrumbs(const std::vector<Crumb> &crumbs, const double reach)
       : reach(reach), order(crumbs.size())
   {
     Vec low = {1e300, 1e300, 1e300, 0.};
@@ -144,7 +193,7 @@ private:
 class NearCrumbs
 {
 public:
-  NearCrumbs(const AlignedVector<Crumb> &all, const double reach,
+  NearCrumbs(const std::vector<Crumb> &all, const double reach,
              const NodalState &nodes)
       : start(nodes.n_owned + 1, 0)
   {
@@ -206,8 +255,9 @@ BondList::Rows renew_crumbled_neighbors(const NodalState &nodes,
                                         const LagrangianKernel &kernel,
                                         MPI_Comm communicator)
 {
-  const NearCrumbs near(gather_crumbs(nodes, failure, communicator),
-                        kernel.support() * kernel.mean_spacing(), nodes);
+  const double reach = kernel.support() * kernel.mean_spacing();
+  const NearCrumbs near(gather_crumbs(nodes, failure, reach, communicator),
+                        reach, nodes);
   BondList::Rows rows;
   rows.reserve(nodes.n_owned, bonds.capacity());
   std::vector<GlobalIndex> kept;

@@ -272,23 +272,44 @@ void BondResidual::end_kernel_update(const SpgParts &body,
 {
   const BondList &bonds = body.bonds;
   const ParticleApproximation &functions = body.approximation;
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
   const Vec *const X = body.fields.kernel_reference_position.data();
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
     // The linear part of the residual belongs to F, which starts anew.
-    Mat A = Mat::zero();
+    const std::size_t first = bonds.begin(i), last = bonds.packed_end(i);
     const Vec Xi = X[i];
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      add_outer(A, bonds.weight[b] * load(residual[b]),
-                X[bonds.neighbor[b]] - Xi);
-    A = transpose(A * functions.moment_inverse[i]);
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      residual[b] = store_bond(load(residual[b]) -
-                               multiply_columns(A, X[bonds.neighbor[b]] - Xi));
+    Pack dX[3], e[3], sum[3][3] = {};
+    const auto take = [&](const std::size_t b)
+    {
+      gather(X, neighbor + b, dX);
+      load_bonds(&residual[b], e);
+      for (int d = 0; d < 3; ++d)
+        dX[d] -= Xi[d];
+    };
+    for (std::size_t b = first; b < last; b += n_lanes)
+    {
+      take(b);
+      const Pack w = load_floats(&bonds.weight[b]);
+      for (int d = 0; d < 3; ++d)
+        for (int c = 0; c < 3; ++c)
+          sum[d][c] += w * e[d] * dX[c];
+    }
+    const Pack zero = {};
+    const Mat A = Mat{{sum_lanes(sum[0][0], sum[0][1], sum[0][2], zero),
+                       sum_lanes(sum[1][0], sum[1][1], sum[1][2], zero),
+                       sum_lanes(sum[2][0], sum[2][1], sum[2][2], zero)}} *
+                  functions.moment_inverse[i];
+    for (std::size_t b = first; b < last; b += n_lanes)
+    {
+      take(b);
+      for (int d = 0; d < 3; ++d)
+        e[d] -= A(d, 0) * dX[0] + A(d, 1) * dX[1] + A(d, 2) * dX[2];
+      store_bonds(&residual[b], e);
+    }
     // Residuals that grew while they had no stiffness hold no energy.
     if (was_lost[i] && !functions.lost_direction[i])
-      std::fill(residual.begin() + bonds.begin(i),
-                residual.begin() + bonds.end(i), BondVec{});
+      std::fill(residual.begin() + first, residual.begin() + last, BondVec{});
   }
 }
 
@@ -298,15 +319,18 @@ double BondResidual::held_energy(const SpgParts &body,
   const BondList &bonds = body.bonds;
   if (stiffness[i] == 0.)
     return 0.;
-  Vec square = {};
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+  Pack square = {};
+  for (std::size_t b = bonds.begin(i); b < bonds.packed_end(i); b += n_lanes)
   {
-    const Vec e = load(residual[b]);
-    square += bonds.scaled_weight[b] * e * e;
+    Pack e[3];
+    load_bonds(&residual[b], e);
+    square += load_floats(&bonds.scaled_weight[b]) *
+              (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
   }
+  const Pack zero = {};
   const double theta = factor[i];
   return 0.5 * stiffness[i] * theta * theta *
-         (square[0] + square[1] + square[2]);
+         sum_lanes(square, zero, zero, zero)[0];
 }
 
 void BondResidual::add_row_sums(const SpgParts &body,
