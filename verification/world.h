@@ -41,8 +41,12 @@ struct World
       const auto &points = body->partition_points();
       body->node_owner.clear();
       if (!points.empty()) // those of a body that grows follow its host's
-        body->node_owner = partition(
-            points, std::vector<float>(points.size(), 1.f), MPI_COMM_WORLD);
+      {
+        PointShare share(points.size(), MPI_COMM_WORLD);
+        share.add(0, points, 1.f);
+        body->node_owner =
+            partition(std::move(share), points.size(), MPI_COMM_WORLD);
+      }
       body->distribute(body->node_owner, MPI_COMM_WORLD);
     }
     for (auto c = couplings.rbegin(); c != couplings.rend(); ++c)

@@ -103,9 +103,10 @@ std::string read_text(const std::string &file, const std::string &included_at)
          "cannot read parameter file \"" + file +
              "\"; check its name and that it is a readable text file");
   constexpr std::size_t longest = std::size_t(64) << 20; // /dev/zero, a mesh
-  std::string text(longest + 1, '\0');
-  stream.read(&text[0], text.size());
-  text.resize(stream.gcount());
+  std::string text, piece(std::size_t(1) << 16, '\0');
+  while (text.size() <= longest &&
+         stream.read(&piece[0], piece.size()).gcount())
+    text.append(piece, 0, stream.gcount());
   if (text.size() > longest)
     fail(included_at, "",
          "parameter file \"" + file +

@@ -1,8 +1,6 @@
 // Questions to a mesh of hexahedra.
 #include "sabot/geometry/hex_mesh.h"
 
-#include "sabot/kernels/vec.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +14,17 @@ constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
 } // namespace
 
 MeanGradients mean_gradients(const HexMesh &mesh, const GlobalIndex cell)
+{
+  std::array<Vec, 8> X;
+  for (int a = 0; a < 8; ++a)
+  {
+    const auto &p = mesh.nodes[mesh.cells[cell][a]];
+    X[a] = vec(p[0], p[1], p[2]);
+  }
+  return mean_gradients(X);
+}
+
+MeanGradients mean_gradients(const std::array<Vec, 8> &X)
 {
   MeanGradients result;
   const double at = 1. / std::sqrt(3.);
@@ -31,8 +40,7 @@ MeanGradients mean_gradients(const HexMesh &mesh, const GlobalIndex cell)
       derivative[a] =
           vec(0.5 * sign[a][0] * f[1] * f[2], 0.5 * sign[a][1] * f[0] * f[2],
               0.5 * sign[a][2] * f[0] * f[1]);
-      const auto &X = mesh.nodes[mesh.cells[cell][a]];
-      add_outer(J, vec(X[0], X[1], X[2]), derivative[a]);
+      add_outer(J, X[a], derivative[a]);
     }
     double det;
     const Mat to_space = transpose(inverse(J, det));

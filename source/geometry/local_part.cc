@@ -9,16 +9,25 @@ LocalPart find_local_part(const HexMesh &mesh, const std::vector<int> &owner,
                           const int rank)
 {
   LocalPart part;
+  part.nodes.reserve(std::count(owner.begin(), owner.end(), rank));
   for (std::size_t i = 0; i < owner.size(); ++i)
     if (owner[i] == rank)
       part.nodes.push_back(i);
   part.n_owned = part.nodes.size();
+  const auto is_here = [&](const std::array<GlobalIndex, 8> &nodes)
+  {
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](const GlobalIndex a) { return owner[a] == rank; });
+  };
+  const std::size_t n_here =
+      std::count_if(mesh.cells.begin(), mesh.cells.end(), is_here);
+  part.cells.reserve(n_here);
+  part.owned_cell.reserve(n_here);
   std::vector<GlobalIndex> ghosts;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
     const auto &nodes = mesh.cells[c];
-    if (std::none_of(nodes.begin(), nodes.end(),
-                     [&](const GlobalIndex a) { return owner[a] == rank; }))
+    if (!is_here(nodes))
       continue;
     part.cells.push_back(c);
     part.owned_cell.push_back(

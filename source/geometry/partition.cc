@@ -9,29 +9,21 @@ namespace sabot
 {
 namespace
 {
-struct Points
-{
-  const std::vector<std::array<double, 3>> &points;
-  const std::vector<float> &weights;
-  std::size_t begin, end; // the share this rank hands to Zoltan
-};
-
 int count(void *data, int *error)
 {
   *error = ZOLTAN_OK;
-  const Points &p = *static_cast<Points *>(data);
-  return p.end - p.begin;
+  return static_cast<PointShare *>(data)->points.size();
 }
 
 void list(void *data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int,
           float *weights, int *error)
 {
-  const Points &p = *static_cast<Points *>(data);
-  for (std::size_t i = p.begin; i < p.end; ++i)
+  const PointShare &share = *static_cast<PointShare *>(data);
+  for (std::size_t i = 0; i < share.points.size(); ++i)
   {
-    global[i - p.begin] = i;
-    local[i - p.begin] = i - p.begin;
-    weights[i - p.begin] = p.weights[i];
+    global[i] = share.begin + i;
+    local[i] = i;
+    weights[i] = share.weights[i];
   }
   *error = ZOLTAN_OK;
 }
@@ -42,32 +34,49 @@ int dimension(void *, int *error)
   return 3;
 }
 
-void coordinates(void *data, int, int, int n, ZOLTAN_ID_PTR global,
-                 ZOLTAN_ID_PTR, int, double *x, int *error)
+void coordinates(void *data, int, int, int n, ZOLTAN_ID_PTR,
+                 ZOLTAN_ID_PTR local, int, double *x, int *error)
 {
-  const Points &p = *static_cast<Points *>(data);
+  const PointShare &share = *static_cast<PointShare *>(data);
   for (int i = 0; i < n; ++i)
-    std::copy(p.points[global[i]].begin(), p.points[global[i]].end(),
+    std::copy(share.points[local[i]].begin(), share.points[local[i]].end(),
               x + 3 * i);
   *error = ZOLTAN_OK;
 }
 } // namespace
 
-std::vector<int> partition(const std::vector<std::array<double, 3>> &points,
-                           const std::vector<float> &weights,
-                           MPI_Comm communicator)
+PointShare::PointShare(const std::size_t n, MPI_Comm communicator)
 {
   int n_ranks, rank;
   MPI_Comm_size(communicator, &n_ranks);
   MPI_Comm_rank(communicator, &rank);
-  const std::size_t n = points.size();
+  begin = n_ranks == 1 ? n : n * rank / n_ranks;
+  end = n * (rank + 1) / n_ranks;
+}
+
+void PointShare::add(const std::size_t first,
+                     const std::vector<std::array<double, 3>> &some,
+                     const float weight)
+{
+  for (std::size_t i = std::max(first, begin);
+       i < std::min(first + some.size(), end); ++i)
+  {
+    points.push_back(some[i - first]);
+    weights.push_back(weight);
+  }
+}
+
+std::vector<int> partition(PointShare share, const std::size_t n,
+                           MPI_Comm communicator)
+{
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
   std::vector<int> owner(n, 0);
   if (n_ranks == 1)
     return owner;
 
   float version;
   Zoltan_Initialize(0, nullptr, &version);
-  Points share{points, weights, n * rank / n_ranks, n * (rank + 1) / n_ranks};
   Zoltan zoltan(communicator);
   zoltan.Set_Param("DEBUG_LEVEL", "0");
   zoltan.Set_Param("LB_METHOD", "RCB");

@@ -13,7 +13,9 @@ void Substeps::find(const std::vector<std::unique_ptr<Body>> &bodies,
 {
   most = largest;
   members.clear();
-  if (most == 1)
+  // The body with the longest step makes one, so that it takes two.
+  const auto may = [](const auto &body) { return body->moves_node_by_node(); };
+  if (most == 1 || std::count_if(bodies.begin(), bodies.end(), may) < 2)
     return;
   std::vector<char> bound(bodies.size(), 0);
   for (const auto &coupling : couplings)

@@ -289,28 +289,36 @@ std::vector<std::pair<std::string, std::string>> Scene::knobs() const
   return in_force;
 }
 
-void Scene::distribute()
+void Scene::find_owners()
 {
-  std::vector<std::array<double, 3>> points;
-  std::vector<float> weights;
+  std::size_t n = 0;
   for (const auto &body : bodies)
-  {
-    const auto &p = body->partition_points();
-    points.insert(points.end(), p.begin(), p.end());
-    weights.insert(weights.end(), p.size(), body->partition_weight());
-  }
-  const std::vector<int> owner = partition(points, weights, communicator);
+    n += body->partition_points().size();
+  PointShare share(n, communicator);
   std::size_t first = 0;
   for (const auto &body : bodies)
   {
-    const std::size_t n = body->partition_points().size();
-    body->node_owner.assign(owner.begin() + first, owner.begin() + first + n);
-    first += n;
+    share.add(first, body->partition_points(), body->partition_weight());
+    first += body->partition_points().size();
+  }
+  const std::vector<int> owner = partition(std::move(share), n, communicator);
+  auto next = owner.begin();
+  for (const auto &body : bodies)
+  {
+    const auto begin = next;
+    next += body->partition_points().size();
+    body->node_owner.assign(begin, next);
+  }
+}
+
+void Scene::distribute()
+{
+  find_owners();
+  for (const auto &body : bodies)
     within_memory("body \"" + body->name + "\" (" +
                       std::to_string(body->n_items()) + " " +
                       body->item_name() + ")",
                   [&]() { body->distribute(body->node_owner, communicator); });
-  }
   // Ties first: contact and loads want to know who follows whom.
   for (auto coupling = couplings.rbegin(); coupling != couplings.rend();
        ++coupling)

@@ -5,6 +5,7 @@
 #include "sabot/bodies/fem/fem_options.h"
 #include "sabot/bodies/fem/hourglass.h"
 #include "sabot/bodies/fem/one_point.h"
+#include "sabot/kernels/coarse_pack.h"
 
 #include <gtest/gtest.h>
 
@@ -61,28 +62,63 @@ TEST(CellKernels, damping_shortens_the_step)
   EXPECT_DOUBLE_EQ(damped_step(undamped, xi)[0], 1.);
 }
 
-TEST(Hourglass, sums_see_no_linear_field_and_forces_do_their_work)
+TEST(Hourglass, modes_see_no_linear_field_and_forces_do_their_work)
 {
   constexpr double X[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                               {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  double linear[8], any[8], mode[4], force[8];
+  double field[8], any[8], linear[3], mode[4], force[8];
   for (int a = 0; a < 8; ++a)
   {
-    linear[a] = 3. + 2. * X[a][0] - X[a][1] + 0.5 * X[a][2];
+    field[a] = 3. + 2. * X[a][0] - X[a][1] + 0.5 * X[a][2];
     any[a] = std::sin(1. + a);
   }
-  hourglass_sums(linear, mode);
+  corner_sums(field, linear, mode);
+  const double slope[3] = {2., -1., 0.5};
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(linear[k], 4. * slope[k], 1e-14);
   for (const double m : mode)
     EXPECT_NEAR(m, 0., 1e-15);
-  const double amplitude[4] = {0.3, -0.7, 1.1, 0.4};
-  hourglass_spread(amplitude, force);
-  hourglass_sums(any, mode);
-  double work = 0., modal_work = 0.;
+  const double along[3] = {-0.9, 0.2, 0.6},
+               amplitude[4] = {0.3, -0.7, 1.1, 0.4};
+  corner_spread(along, amplitude, force);
+  corner_sums(any, linear, mode);
+  double work = 0., modal_work = 0., sum = 0.;
   for (int a = 0; a < 8; ++a)
+  {
     work += force[a] * any[a];
+    sum += force[a];
+  }
+  for (int k = 0; k < 3; ++k)
+    modal_work += along[k] * linear[k];
   for (int m = 0; m < 4; ++m)
     modal_work += amplitude[m] * mode[m];
   EXPECT_NEAR(work, modal_work, 1e-14);
+  EXPECT_NEAR(sum, 0., 1e-15);
+  // Each mode alone has the signs that it is named by.
+  constexpr double h[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
+                              {1, -1, -1, 1, -1, 1, 1, -1},
+                              {1, -1, 1, -1, 1, -1, 1, -1},
+                              {-1, 1, -1, 1, 1, -1, 1, -1}};
+  for (int m = 0; m < 4; ++m)
+  {
+    corner_sums(h[m], linear, mode);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_EQ(mode[k], k == m ? 8. : 0.);
+  }
+}
+
+TEST(CoarsePack, rounds_to_the_nearest)
+{
+  const Pack a = {1., -3.141592653589793, 1.00390625, 6.02214e23};
+  const Pack b = to_double(to_coarse(a));
+  EXPECT_EQ(b[0], 1.);
+  EXPECT_EQ(b[2], 1.); // half way: to the even one
+  for (std::size_t l = 0; l < n_lanes; ++l)
+    EXPECT_NEAR(b[l] / a[l], 1., 1. / 256.) << l;
+  EXPECT_EQ(to_double(to_coarse(-a))[1], -b[1]);
+  EXPECT_EQ(to_double(to_coarse(a)[1]), b[1]);
+  const Pack none = {};
+  EXPECT_EQ(to_double(to_coarse(none))[3], 0.);
 }
 
 FemOptions options_with(const std::string &entry, const std::string &value)

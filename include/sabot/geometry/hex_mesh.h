@@ -2,6 +2,7 @@
 #define sabot_geometry_hex_mesh_h
 
 #include "sabot/base/types.h"
+#include "sabot/kernels/vec.h"
 
 #include <array>
 #include <vector>
@@ -34,6 +35,8 @@ struct MeanGradients
   double volume = 0.;
   std::array<std::array<double, 3>, 8> B{};
 };
+/** Of the cell with the corners @p X [m], VTK order. */
+MeanGradients mean_gradients(const std::array<Vec, 8> &X);
 /** Of the cell with the number @p cell, from the positions of its nodes. */
 MeanGradients mean_gradients(const HexMesh &mesh, const GlobalIndex cell);
 

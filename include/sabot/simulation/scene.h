@@ -153,6 +153,8 @@ public:
   bool is_free = true;
 
 private:
+  /** Partition of the nodes of all bodies, into Body::node_owner. */
+  void find_owners();
   /** InputError where the list of bodies is empty. */
   void read_settings();
   /** All subsections of "Materials", whether a body uses them or not. */

@@ -28,24 +28,17 @@ constexpr int corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},
                               {1, 1, 1},    {-1, 1, 1}};
 } // namespace
 
-void BBar::set_up(const HexMesh &mesh, const std::vector<GlobalIndex> &ids,
-                  const std::vector<std::array<std::uint32_t, 8>> &nodes)
+void BBar::set_up(LocalCells cells, const AlignedVector<Vec> &X)
 {
-  connectivity = nodes;
-  cell_id = ids;
+  take(std::move(cells));
   geometry.resize(size());
   motion.resize(size());
   for (std::size_t e = 0; e < size(); ++e)
   {
-    std::array<Vec, 8> X;
-    for (int a = 0; a < 8; ++a)
-    {
-      const auto &p = mesh.nodes[mesh.cells[ids[e]][a]];
-      X[a] = vec(p[0], p[1], p[2]);
-    }
-    volume.push_back(0.);
+    // That of the points, to the last bit.
+    volume[e] = 0.;
     for (int q = 0; q < 8; ++q)
-      volume.back() += set_up_point(X, q, geometry[e]);
+      volume[e] += set_up_point(corners_of(e, X), q, geometry[e]);
     for (PackMat &F : motion[e].F)
     {
       F = {};
@@ -53,7 +46,6 @@ void BBar::set_up(const HexMesh &mesh, const std::vector<GlobalIndex> &ids,
         F.m[d][d] += 1.;
     }
   }
-  allocate_points();
 }
 
 /** Gradients at Gauss point @p q of a cell with the corners @p X.

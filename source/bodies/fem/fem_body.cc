@@ -2,7 +2,6 @@
 #include "sabot/bodies/fem/fem_body.h"
 
 #include "sabot/base/registry.h"
-#include "sabot/bodies/body_report.h"
 #include "sabot/bodies/fem/fem_mass_scaling.h"
 
 #include <algorithm>
@@ -77,41 +76,51 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   communicator = comm;
   int rank;
   MPI_Comm_rank(communicator, &rank);
-  const LocalPart part = find_local_part(mesh, owner, rank);
-  owned_cell = part.owned_cell;
-  lay_out_nodes(part, owner);
-  const auto connectivity = part.connectivity(mesh);
+  LocalCells local;
+  const GlobalIndex n_boundary_faces = mesh.boundary_faces.size();
+  std::vector<unsigned int> held = options.driven_boundary_ids;
+  held.insert(held.end(), boundary.loaded_faces().begin(),
+              boundary.loaded_faces().end());
+  const std::vector<GlobalIndex> held_nodes = conversion.is_on()
+                                                  ? nodes_of_faces(mesh, held)
+                                                  : std::vector<GlobalIndex>();
+  {
+    LocalPart part = find_local_part(mesh, owner, rank);
+    lay_out_nodes(part, owner);
+    local.connectivity = part.connectivity(mesh);
+    local.volume.reserve(part.cells.size());
+    for (const GlobalIndex c : part.cells)
+      local.volume.push_back(mesh.volume[c]);
+    boundary.set_up(mesh, part.local, nodal_state.n_owned, constraints);
+    local.id = std::move(part.cells);
+    owned_cell = std::move(part.owned_cell);
+    mesh = HexMesh(); // before the cells take their room
+  }
   // Masses add up in global cell order.
-  for (std::size_t e = 0; e < part.cells.size(); ++e)
-    for (const std::uint32_t a : connectivity[e])
+  for (std::size_t e = 0; e < local.id.size(); ++e)
+    for (const std::uint32_t a : local.connectivity[e])
       nodal_state.lumped_mass[a] +=
-          0.125 * material->density() * mesh.volume[part.cells[e]];
+          0.125 * material->density() * local.volume[e];
   nodal_state.inertia = nodal_state.lumped_mass;
 
-  boundary.set_up(mesh, part.local, nodal_state.n_owned, constraints);
-  cells->set_up(mesh, part.cells, connectivity);
+  cells->set_up(std::move(local), nodal_state.reference_position);
   if (options.erodes() || conversion.is_on())
-    living = std::make_unique<LivingCells>(
-        nodal_state, *cells, boundary, owned_cell, mesh.boundary_faces.size());
+    living = std::make_unique<LivingCells>(nodal_state, *cells, boundary,
+                                           owned_cell, n_boundary_faces);
   if (options.erodes())
     erosion =
         std::make_unique<FemErosion>(options, *material, nodal_state, *cells,
                                      *living, owned_cell, communicator);
   if (conversion.is_on())
-  {
-    std::vector<unsigned int> held = options.driven_boundary_ids;
-    held.insert(held.end(), boundary.loaded_faces().begin(),
-                boundary.loaded_faces().end());
-    conversion.set_up(nodes_of_faces(mesh, held));
-  }
-  mesh = HexMesh();
+    conversion.set_up(held_nodes);
   if (options.mass_scaling.is_on())
     scaling = std::make_unique<FemMassScaling>(
         options.mass_scaling, name, nodal_state, constraints, *cells,
         material->density(), communicator);
   if (options.conducts_heat)
   {
-    std::vector<double> capacity = cells->volume;
+    std::vector<double> capacity(cells->volume.begin(),
+                                 cells->volume.begin() + cells->size());
     for (double &c : capacity)
       c *= material->density() * material->specific_heat();
     heat = std::make_unique<HeatConduction>(
@@ -203,39 +212,6 @@ void FemBody::add_energies(EnergyLedger &ledger) const
     }
 }
 
-BodyMeasures FemBody::measure() const
-{
-  const std::vector<double> eps = cells->cell_state("effective plastic strain"),
-                            temperature = cells->cell_state("temperature");
-  ExactSum internal, hourglass;
-  double top[2] = {0., 0.};
-  for (std::size_t e = 0; e < cells->size(); ++e)
-    if (owned_cell[e])
-    {
-      internal.add(cells->internal_energy(e));
-      hourglass.add(cells->hourglass_energy[e]);
-      top[0] = std::max(top[0], eps.empty() ? 0. : eps[e]);
-      top[1] = std::max(top[1], temperature.empty() ? 0. : temperature[e]);
-    }
-  ExactSum::reduce({&internal, &hourglass}, communicator);
-  MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
-  BodyMeasures measures =
-      measure_nodes(nodal_state, communicator, free_nodes());
-  measures.internal_energy = internal.value();
-  if (!cells->hourglass_control().empty())
-    measures.control = "hourglass";
-  measures.control_energy = hourglass.value();
-  measures.own.push_back({"hourglass energy", "J", hourglass.value()});
-  measures.own.push_back({"plastic strain max", "1", top[0]});
-  // Not from the array, which a rank without cells does not have.
-  if (has_state("temperature"))
-    measures.own.push_back({"temperature max", "K", top[1]});
-  if (erosion)
-    erosion->add_measures(measures);
-  add_scaling(measures);
-  return measures;
-}
-
 BodyFacts FemBody::facts() const
 {
   BodyFacts facts;
@@ -286,58 +262,6 @@ void FemBody::add_section_force(const Vec normal, const double offset,
       if (is_beyond[a])
         sum.add(force[a]);
   }
-}
-
-std::vector<MaterialSite> FemBody::material_sites() const
-{
-  const std::vector<double> eps = cells->cell_state("effective plastic strain");
-  std::vector<MaterialSite> sites;
-  for (std::size_t e = 0; e < cells->size(); ++e)
-    if (owned_cell[e])
-    {
-      MaterialSite site{};
-      for (const std::uint32_t node : cells->connectivity[e])
-        for (int d = 0; d < 3; ++d)
-          site.reference_position[d] +=
-              nodal_state.reference_position[node][d] / 8.;
-      site.plastic_strain = eps.empty() ? 0. : eps[e];
-      sites.push_back(site);
-    }
-  return sites;
-}
-
-void FemBody::fill_output(OutputMesh &out) const
-{
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
-  const std::size_t n_nodes = nodal_state.size();
-  for (std::size_t i = 0; i < n_nodes; ++i)
-    for (int d = 0; d < 3; ++d)
-      out.points.push_back(nodal_state.position[i][d]);
-  std::vector<std::size_t> owned;
-  for (std::size_t e = 0; e < cells->size(); ++e)
-    if (owned_cell[e])
-    {
-      owned.push_back(e);
-      const auto &nodes = cells->connectivity[e];
-      out.connectivity.insert(out.connectivity.end(), nodes.begin(),
-                              nodes.end());
-    }
-  add_field(out.point_fields, "displacement", n_nodes,
-            [&](const std::size_t i, const unsigned int c) {
-              return nodal_state.position[i][c] -
-                     nodal_state.reference_position[i][c];
-            });
-  add_field(out.point_fields, "velocity", n_nodes,
-            [&](const std::size_t i, const unsigned int c)
-            { return nodal_state.velocity[i][c]; });
-  add_material_fields(out.cell_fields, owned, cells->size(),
-                      cells->cell_stress().data(), cells->cell_states().data(),
-                      cells->states());
-  add_field(out.cell_fields, "body", owned.size(),
-            [&](std::size_t, unsigned int) { return double(id); });
-  add_field(out.cell_fields, "rank", owned.size(),
-            [&](std::size_t, unsigned int) { return double(rank); });
 }
 
 void FemBody::visit_state(StateVisitor &visitor)

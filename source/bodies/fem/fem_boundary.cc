@@ -65,6 +65,17 @@ void FemBoundary::set_up(
   std::map<std::size_t, int> planes; // bit per axis
   std::vector<std::size_t> driven, clamped;
   double total_area = 0.;
+  const auto is_here = [&](const std::array<GlobalIndex, 4> &face)
+  {
+    return std::all_of(face.begin(), face.end(),
+                       [&](const GlobalIndex a)
+                       { return local.find(a) != local.end(); });
+  };
+  const std::size_t n_here = std::count_if(mesh.boundary_faces.begin(),
+                                           mesh.boundary_faces.end(), is_here);
+  faces.reserve(n_here);
+  face_id.reserve(n_here);
+  id_of_face.reserve(n_here);
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {
     const unsigned int id = mesh.boundary_id[f];

@@ -35,8 +35,12 @@ CellConstants Hexahedra::cell_constants() const
   return constants;
 }
 
-void Hexahedra::allocate_points()
+void Hexahedra::take(LocalCells cells)
 {
+  connectivity = std::move(cells.connectivity);
+  cell_id = std::move(cells.id);
+  volume.assign(round_up(size(), batch_size), 0.);
+  std::copy(cells.volume.begin(), cells.volume.end(), volume.begin());
   const std::size_t n = size() * n_points;
   points.allocate(n, round_up(n, padding));
   if (options.objective_rate == FemOptions::ObjectiveRate::green_naghdi)
@@ -46,6 +50,15 @@ void Hexahedra::allocate_points()
     added_share.assign(size(), 0.);
   if (options.keeps_steps())
     cell_step.assign(size(), std::numeric_limits<double>::max());
+}
+
+std::array<Vec, 8> Hexahedra::corners_of(const std::size_t cell,
+                                         const AlignedVector<Vec> &X) const
+{
+  std::array<Vec, 8> corner;
+  for (int a = 0; a < 8; ++a)
+    corner[a] = X[connectivity[cell][a]];
+  return corner;
 }
 
 void Hexahedra::keep_points(const std::vector<std::size_t> &kept)
@@ -59,6 +72,7 @@ void Hexahedra::keep_points(const std::vector<std::size_t> &kept)
   cells(connectivity);
   cells(cell_id);
   cells(volume);
+  volume.resize(round_up(kept.size(), batch_size), 0.);
   if (!cell_step.empty())
     cells(cell_step);
   if (!added_share.empty())

@@ -33,9 +33,7 @@ public:
   {
   }
 
-  void set_up(
-      const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
-      const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
+  void set_up(LocalCells cells, const AlignedVector<Vec> &X) override;
   /** As Hexahedra; 4 cells, 32 points a batch. Forces are recomputed by
       cell_forces() from the points' new stress. */
   void add_forces(NodalState &nodes, const double dt) override;

@@ -8,13 +8,21 @@
 #include "sabot/bodies/fem/cell_kernels.h"
 #include "sabot/bodies/fem/fem_options.h"
 #include "sabot/bodies/material_points.h"
-#include "sabot/geometry/hex_mesh.h"
 
 #include <algorithm>
 #include <memory>
 
 namespace sabot
 {
+/** The cells of a rank as they are set up from; parallel arrays. */
+struct LocalCells
+{
+  std::vector<GlobalIndex> id; // in the mesh, ascending
+  /** Local nodes of the corners, VTK order. */
+  std::vector<std::array<std::uint32_t, 8>> connectivity;
+  std::vector<double> volume; // V_0 [m^3]
+};
+
 /**
  * The hexahedra of a FEM body on this rank, with their material points: what
  * all integration rules share. A new rule is a class derived from this one,
@@ -46,13 +54,10 @@ public:
             const unsigned int n_points);
   virtual ~Hexahedra() = default;
 
-  /** Take the cells of @p mesh with these numbers and local nodes. Cells
-      ascend by their global numbers cell_id, connectivity holds local nodes.
-      Computes the reference gradients [1/m] and volumes [m^3] and puts all
-      points at rest; the mesh is not needed afterwards. */
-  virtual void
-  set_up(const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
-         const std::vector<std::array<std::uint32_t, 8>> &connectivity) = 0;
+  /** Take these cells, whose nodes are at @p X [m]. Computes the reference
+      gradients [1/m] and puts all points at rest. Needs no mesh, which may be
+      gone by now. */
+  virtual void set_up(LocalCells cells, const AlignedVector<Vec> &X) = 0;
   /** Subtract the internal forces of all cells; advance their state by the
       step @p dt that led here (no_step: forces only). f_a -= sum over
       points V J (sigma - q 1) F^-T B_a + hourglass forces [N], into owned
@@ -89,7 +94,7 @@ public:
    */
   std::vector<std::array<std::uint32_t, 8>> connectivity;
   std::vector<GlobalIndex> cell_id;
-  std::vector<double> volume;             // V_0 [m^3]
+  AlignedVector<double> volume; // V_0 [m^3], with zeros to whole packs
   AlignedVector<double> hourglass_energy; // [J]
   /** Internal energy and plastic work of cell @p e [J]. Work of law and bulk
       viscosity since the start, over the volume of the cell, without that of
@@ -169,9 +174,12 @@ protected:
     double stiffening[batch_size];
   };
 
-  /** Arrays of points for the cells of connectivity. Needs connectivity and
-      volume to be set. R = 1 for the Green-Naghdi rate. */
-  void allocate_points();
+  /** Numbers and corners of the cells, and arrays of their points. R = 1 for
+      the Green-Naghdi rate. */
+  void take(LocalCells cells);
+  /** Corners of a cell [m]. */
+  std::array<Vec, 8> corners_of(const std::size_t cell,
+                                const AlignedVector<Vec> &X) const;
   /** What the rules have in common of keep(). */
   void keep_points(const std::vector<std::size_t> &kept);
   /** F at a point. From the undeformed state, as of the last kinematics; of

@@ -2,6 +2,7 @@
 #define sabot_bodies_fem_one_point_h
 
 #include "sabot/bodies/fem/hexahedra.h"
+#include "sabot/kernels/coarse_pack.h"
 #include "sabot/kernels/pack.h"
 
 #include <memory>
@@ -47,9 +48,7 @@ public:
   {
   }
 
-  void set_up(
-      const HexMesh &mesh, const std::vector<GlobalIndex> &cell_id,
-      const std::vector<std::array<std::uint32_t, 8>> &connectivity) override;
+  void set_up(LocalCells cells, const AlignedVector<Vec> &X) override;
   /** -[P B_a + modal forces], recomputed cell by cell with plain arithmetic;
       P = V_0 J (sigma - q 1) F^-T and what the modes add. */
   void cell_forces(const NodalState &nodes, const std::size_t cell,
@@ -68,6 +67,7 @@ public:
   {
     Hexahedra::list_memory(table);
     table.add("geometry of cells", geometry);
+    table.add("crookedness of cells", warp);
     table.add("motion of cells", motion);
     table.add("modes at rest", reference_modes);
     table.add("modal forces", last_forces);
@@ -90,12 +90,19 @@ protected:
                             const double present_volume, const Vec kept[4],
                             Vec mode[4], Mat &P) const = 0;
 
-  /** Reference data of four cells, read twice per step. Gradients are means
-      over the cell (Flanagan & Belytschko 1981), V_0 is exact. */
+  /** Mean gradients of four cells by the base vectors of corner_sums(),
+   *
+   *   B_a = sum_k l_ka linear_k + sum_m h_ma mode_m   [1/m],
+   *
+   * read twice per step; with three vectors where eight would stand, and the
+   * modes only in bodies that have a cell which is no parallelepiped. */
   struct Geometry
   {
-    Pack B[8][3]; // mean gradients [1/m]
-    Pack volume;  // V_0; 0 in lanes without a cell
+    Pack linear[3][3];
+  };
+  struct Warp
+  {
+    Pack mode[4][3];
   };
   /** F of four cells at the end of the last step. */
   using Motion = PackMat;
@@ -106,11 +113,11 @@ protected:
     Pack mode[4][3];
   };
   /** The modal forces of the last step [N], for the work of the mean of both
-      ends: they are books, and no force is made of them, so that seven digits
-      will do. */
+      ends: they are books, and no force that stays is made of them, so that a
+      few digits will do whose errors cancel out over cells and steps. */
   struct LastForces
   {
-    HalfPack mode[4][3];
+    CoarsePack mode[4][3];
   };
   /** Of one pack of cells, from kinematics to forces. Written by the
       kinematics of the loop, read by scatter() once the law has the stress:
@@ -126,12 +133,15 @@ protected:
   /** Subtract the forces of the stress of a pack, and those that pend. -(P
       B_a + sum over modes), P = (sigma - q 1) V_0 J F^-T + the modes' part;
       corners are added cell by cell in ascending order, so that nodal sums
-      do not depend on ranks. */
+      do not depend on ranks. @p is_crooked: whether any cell here has modes. */
+  template <bool is_crooked>
   void scatter(NodalState &nodes, const std::size_t pack);
 
   AlignedVector<Geometry> geometry;
+  AlignedVector<Warp> warp; // empty where all cells are parallelepipeds
   AlignedVector<Motion> motion;
-  // One of these, by keeps_reference_modes().
+  /** One of these, by keeps_reference_modes(); parallelepipeds have no modes
+      at rest. */
   AlignedVector<ReferenceModes> reference_modes;
   AlignedVector<LastForces> last_forces;
   PointBatch batch;
@@ -153,6 +163,8 @@ protected:
   }
 
 private:
+  /** Gradients of cell @p e with the corners @p X. */
+  void set_gradients(const std::size_t e, const std::array<Vec, 8> &X);
   /** All that is kept of a cell, from one lane to another. */
   void copy_cell(const std::size_t from, const std::size_t to);
   /** The modes that a cell keeps. */

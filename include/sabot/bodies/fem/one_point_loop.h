@@ -14,6 +14,7 @@ namespace sabot
  * in. @p Form derives from this class and has
  *
  *     static constexpr bool needs_velocities;
+ *     template <bool is_crooked>
  *     void hourglass(const CellConstants &, const FourCells &,
  *                    const double dt, const std::size_t pack, Pending &out);
  *
@@ -21,7 +22,8 @@ namespace sabot
  * the hourglass energy [J] of four cells.
  *
  * Run-time choices are made outside: materials per batch of points, the form by
- * the class. What is inside is straight arithmetic on packs of four cells.
+ * the class, crooked cells by the body. What is inside is straight arithmetic
+ * on packs of four cells.
  */
 template <typename Form>
 class OnePointLoop : public OnePoint
@@ -37,6 +39,14 @@ public:
       inverts and the option says stop. */
   void add_forces(NodalState &nodes, const double dt) override
   {
+    warp.empty() ? add_forces_of<false>(nodes, dt)
+                 : add_forces_of<true>(nodes, dt);
+  }
+
+protected:
+  template <bool is_crooked>
+  void add_forces_of(NodalState &nodes, const double dt)
+  {
     reset_steps();
     const CellConstants constants = cell_constants();
     const std::size_t n = size();
@@ -45,29 +55,27 @@ public:
       const std::size_t m = std::min(batch_size, round_up(n - begin, 8)),
                         first = begin / n_lanes, last = first + m / n_lanes;
       for (std::size_t pack = first; pack < last; ++pack)
-        kinematics(constants, nodes, pack, dt);
+        kinematics<is_crooked>(constants, nodes, pack, dt);
       update_points(begin, m, dt, batch);
       for (std::size_t pack = first; pack < last; ++pack)
-        scatter(nodes, pack);
+        scatter<is_crooked>(nodes, pack);
     }
   }
 
-protected:
   /** Four cells as they are now; sums over the corners with the base vectors
       h_m are [component][mode]. Set step by step by kinematics(). */
   struct FourCells
   {
-    explicit FourCells(const Geometry &g) : g(g) {}
-    const Geometry &g;
+    Pack volume; // V_0 [m^3]
     /** F = sum x_a (x) B_a, the mean of the deformation gradient over the
         cell (Flanagan & Belytschko 1981), from the undeformed state. */
     PackMat F, inverse; // F^-1
     PackMat S;          // sum B_a (x) B_a [1/m^2]
     PackMat L;          // sum v_a (x) B_a [1/s], where velocities are needed
     Pack J, J_inverse;
-    Pack edge;         // (V_0 J)^(1/3) [m]
-    Pack modal[3][4];  // sum h_a x_a [m]
-    Pack corner[3][8]; // x_a [m], then v_a [m/s] where they are needed
+    Pack edge;        // (V_0 J)^(1/3) [m]
+    Pack modal[3][4]; // sum h_a x_a [m]
+    Pack rate[3][4];  // sum h_a v_a [m/s], where velocities are needed
   };
 
 private:
@@ -76,12 +84,16 @@ private:
       order of what depends on what: F, J; what inverts; l; strain for the
       material; F^-1; stable step and viscosity; modes; hourglass forces. k =
       4 (pack mod packs per batch) is the first point in the batch. */
+  template <bool is_crooked>
   void kinematics(const CellConstants &constants, const NodalState &nodes,
                   const std::size_t pack, const double dt);
+  template <bool is_crooked>
   void ask_for(const std::size_t pack) const;
-  static PackMat nodal_gradient(const Geometry &g, const Corners &corners,
-                                const Vec *nodal, Pack value[3][8]);
-  static PackMat squares(const Geometry &g);
+  template <bool is_crooked>
+  PackMat nodal_gradient(const std::size_t pack, const Corners &corners,
+                         const Vec *nodal, Pack modal[3][4]) const;
+  template <bool is_crooked>
+  PackMat squares(const std::size_t pack) const;
   void rest_what_inverts(const NodalState &nodes, const std::size_t pack,
                          const Pack J_old, FourCells &cells);
   void store_strain(const PackMat &l, const FourCells &cells, const Pack J_old,
@@ -93,9 +105,10 @@ private:
   static Pack step_of_quarter_volume(const FourCells &cells);
 };
 
-/** All cache lines of the pack that comes next: four cells have 1.4 kB of
-    data, which the hardware's prefetcher finds too late. */
+/** All cache lines of the pack that comes next: four cells have some 700 bytes
+    of data, which the hardware's prefetcher finds too late. */
 template <typename Form>
+template <bool is_crooked>
 SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
 {
   if (pack >= geometry.size())
@@ -108,18 +121,21 @@ SABOT_IN_LOOP void OnePointLoop<Form>::ask_for(const std::size_t pack) const
   };
   ask(geometry[pack]);
   ask(motion[pack]);
+  if constexpr (is_crooked)
+    ask(warp[pack]);
 }
 
-/** sum a_a (x) B_a of nodal vectors, which are kept by component in @p value
-    for the hourglass sums: F of positions, L of velocities. Rigid motion gives
-    a rotation, since sum B_a = 0. */
+/** sum a_a (x) B_a of nodal vectors, whose hourglass sums go to @p modal: F of
+    positions, L of velocities. Rigid motion gives a rotation, since sum B_a =
+    0. */
 template <typename Form>
-SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
+template <bool is_crooked>
+SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const std::size_t pack,
                                                          const Corners &corners,
                                                          const Vec *const nodal,
-                                                         Pack value[3][8])
+                                                         Pack modal[3][4]) const
 {
-  PackMat sum = {};
+  Pack value[3][8];
   for (int a = 0; a < 8; ++a)
   {
     Pack p[3];
@@ -127,28 +143,50 @@ SABOT_IN_LOOP PackMat OnePointLoop<Form>::nodal_gradient(const Geometry &g,
                                          corners.of[2][a], corners.of[3][a]};
     gather(nodal, node, p);
     for (int i = 0; i < 3; ++i)
-    {
       value[i][a] = p[i];
-      for (int j = 0; j < 3; ++j)
-        sum.m[i][j] += p[i] * g.B[a][j];
+  }
+  const Geometry &g = geometry[pack];
+  PackMat sum = {};
+  for (int i = 0; i < 3; ++i)
+  {
+    Pack linear[3];
+    corner_sums(value[i], linear, modal[i]);
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int k = 0; k < 3; ++k)
+        sum.m[i][j] += linear[k] * g.linear[k][j];
+      if constexpr (is_crooked)
+        for (int m = 0; m < 4; ++m)
+          sum.m[i][j] += modal[i][m] * warp[pack].mode[m][j];
     }
   }
   return sum;
 }
 
-/** S = sum B_a (x) B_a [1/m^2]: 48 multiplications, cheaper than to read what
-    they give. */
+/** S = sum B_a (x) B_a [1/m^2], 8 times the squares by base vectors: cheaper
+    than to read what they give. */
 template <typename Form>
-SABOT_IN_LOOP PackMat OnePointLoop<Form>::squares(const Geometry &g)
+template <bool is_crooked>
+SABOT_IN_LOOP PackMat OnePointLoop<Form>::squares(const std::size_t pack) const
 {
   PackMat S = {};
-  for (const Pack *const B : g.B)
+  const auto add = [&S](const Pack B[3])
+  {
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j)
         S.m[i][j] += B[i] * B[j];
-  for (int i = 1; i < 3; ++i)
-    for (int j = 0; j < i; ++j)
-      S.m[i][j] = S.m[j][i];
+  };
+  for (const auto &B : geometry[pack].linear)
+    add(B);
+  if constexpr (is_crooked)
+    for (const auto &B : warp[pack].mode)
+      add(B);
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+    {
+      S.m[i][j] *= 8.;
+      S.m[j][i] = S.m[i][j];
+    }
   return S;
 }
 
@@ -190,7 +228,7 @@ OnePointLoop<Form>::store_strain(const PackMat &l, const FourCells &cells,
     store_pack(&batch.strain[d][k], l.m[d][d]);
   store_shear_and_spin(l, batch, k);
   store_pack(&batch.jacobian[k], cells.J);
-  store_pack(&batch.half_volume[k], 0.25 * cells.g.volume * (cells.J + J_old));
+  store_pack(&batch.half_volume[k], 0.25 * cells.volume * (cells.J + J_old));
 }
 
 /** F^-1, and V_0 J F^-T, by which stress becomes nodal forces: f_a = -(V_0 J
@@ -206,7 +244,7 @@ SABOT_IN_LOOP void OnePointLoop<Form>::invert(FourCells &cells, Pending &out)
     for (int j = 0; j < 3; ++j)
     {
       cells.inverse.m[i][j] = cells.J_inverse * adjoint.m[i][j];
-      out.stress_to_force.m[j][i] = cells.g.volume * adjoint.m[i][j];
+      out.stress_to_force.m[j][i] = cells.volume * adjoint.m[i][j];
     }
 }
 
@@ -298,6 +336,7 @@ OnePointLoop<Form>::step_of_quarter_volume(const FourCells &cells)
  * (scatter).
  */
 template <typename Form>
+template <bool is_crooked>
 void OnePointLoop<Form>::kinematics(const CellConstants &constants,
                                     const NodalState &nodes,
                                     const std::size_t pack, const double dt)
@@ -306,12 +345,13 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
   Motion &F_old = motion[pack];
   Pending &out = pending[pack % packs_per_batch];
   const std::size_t k = pack % packs_per_batch * n_lanes;
-  FourCells cells(geometry[pack]);
+  FourCells cells;
+  cells.volume = load_pack(&volume[pack * n_lanes]);
   const Corners nodes_of = corners(pack);
-  ask_for(pack + 1);
+  ask_for<is_crooked>(pack + 1);
 
-  cells.F =
-      nodal_gradient(cells.g, nodes_of, nodes.position.data(), cells.corner);
+  cells.F = nodal_gradient<is_crooked>(pack, nodes_of, nodes.position.data(),
+                                       cells.modal);
   const Pack J_old = determinant(F_old);
   cells.J = determinant(cells.F);
   rest_what_inverts(nodes, pack, J_old, cells);
@@ -320,18 +360,17 @@ void OnePointLoop<Form>::kinematics(const CellConstants &constants,
   const Pack trace = l.m[0][0] + l.m[1][1] + l.m[2][2];
   store_strain(l, cells, J_old, k);
   invert(cells, out);
-  cells.S = squares(cells.g);
+  cells.S = squares<is_crooked>(pack);
   Pack step = stable_step(constants, cells, trace, dt, k);
 
-  cells.edge = pack_cbrt(cells.g.volume * cells.J);
-  for (int i = 0; i < 3; ++i)
-    hourglass_sums(cells.corner[i], cells.modal[i]);
+  cells.edge = pack_cbrt(cells.volume * cells.J);
   if (Form::needs_velocities || shrinks)
-    cells.L =
-        nodal_gradient(cells.g, nodes_of, nodes.velocity.data(), cells.corner);
+    cells.L = nodal_gradient<is_crooked>(pack, nodes_of, nodes.velocity.data(),
+                                         cells.rate);
   if (shrinks)
     step = pack_min(step, step_of_quarter_volume(cells));
-  static_cast<Form *>(this)->hourglass(constants, cells, dt, pack, out);
+  static_cast<Form *>(this)->template hourglass<is_crooked>(constants, cells,
+                                                            dt, pack, out);
   store_pack(&batch.step[k], step);
 }
 } // namespace sabot

@@ -13,7 +13,7 @@ namespace
  *   k = coefficient/8 rho c^2 V^(1/3)   (Flanagan & Belytschko 1981)
  *
  * for base vectors of unit entries, in total form: what the modes hold comes
- * back. Cells keep sum h_a X_a.
+ * back. Crooked cells keep sum h_a X_a, which others do not have.
  */
 class Stiffness final : public OnePointLoop<Stiffness>
 {
@@ -21,11 +21,11 @@ public:
   using OnePointLoop<Stiffness>::OnePointLoop;
   static constexpr bool needs_velocities = false;
 
+  template <bool is_crooked>
   SABOT_IN_LOOP void hourglass(const CellConstants &constants,
                                const FourCells &cells, const double,
                                const std::size_t pack, Pending &out)
   {
-    const auto &kept = reference_modes[pack];
     const double c = constants.sound_speed;
     const Pack coefficient = options.hourglass_coefficient * 0.125 *
                              constants.density * c * c * cells.edge;
@@ -34,12 +34,15 @@ public:
     for (int m = 0; m < 4; ++m)
       for (int i = 0; i < 3; ++i)
       {
-        const Pack q = cells.modal[i][m] - dot(cells.F.m[i], kept.mode[m]);
+        Pack q = cells.modal[i][m];
+        if constexpr (is_crooked)
+          q -= dot(cells.F.m[i], reference_modes[pack].mode[m]);
         const Pack f = coefficient * q;
         work += f * q;
         out.mode[m][i] = f;
-        for (int j = 0; j < 3; ++j)
-          out.hourglass.m[i][j] -= f * kept.mode[m][j];
+        if constexpr (is_crooked)
+          for (int j = 0; j < 3; ++j)
+            out.hourglass.m[i][j] -= f * reference_modes[pack].mode[m][j];
       }
     store_pack(&hourglass_energy[pack * n_lanes], 0.5 * work);
   }

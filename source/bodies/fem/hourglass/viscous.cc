@@ -22,6 +22,7 @@ public:
   using OnePointLoop<Viscous>::OnePointLoop;
   static constexpr bool needs_velocities = true;
 
+  template <bool>
   SABOT_IN_LOOP void hourglass(const CellConstants &constants,
                                const FourCells &cells, const double dt,
                                const std::size_t pack, Pending &out)
@@ -37,21 +38,18 @@ public:
     // large. There the viscosity stops at what ends the motion of the h in a
     // step, and that along B, which strains the cell as well, in four.
     const Pack strongest =
-        (is_step(dt) ? 0.125 * constants.density / dt : any) * cells.g.volume /
+        (is_step(dt) ? 0.125 * constants.density / dt : any) * cells.volume /
         (8. + 4. * overlap);
     const Pack bounded = pack_min(coefficient, strongest);
-    Pack rate[3][4];
-    for (int i = 0; i < 3; ++i)
-      hourglass_sums(cells.corner[i], rate[i]);
     out.hourglass = {};
     Pack work = zero;
     for (int m = 0; m < 4; ++m)
       for (int i = 0; i < 3; ++i)
       {
-        const Pack r = rate[i][m] - dot(cells.L.m[i], pulled[m]);
+        const Pack r = cells.rate[i][m] - dot(cells.L.m[i], pulled[m]);
         const Pack f = bounded * r;
         work += (f + to_double(kept.mode[m][i])) * r;
-        kept.mode[m][i] = to_float(f);
+        kept.mode[m][i] = to_coarse(f);
         out.mode[m][i] = f;
         for (int j = 0; j < 3; ++j)
           out.hourglass.m[i][j] -= f * pulled[m][j];
