@@ -10,7 +10,7 @@ namespace sabot
 {
 double ClosingSpeed::largest(const std::vector<Body *> &bodies,
                              const std::vector<std::pair<int, int>> &pairs,
-                             MPI_Comm communicator)
+                             MPI_Comm communicator, const unsigned int mirrored)
 {
   const std::size_t n = bodies.size();
   std::vector<char> used(n, 0);
@@ -27,8 +27,10 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
       double square = 0.;
       for (std::size_t i = 0; i < nodes.n_owned; ++i)
       {
-        box.add(nodes.velocity[i]);
-        square = std::max(square, norm_square(nodes.velocity[i] - middle));
+        const Vec v = nodes.velocity[i];
+        box.low = v < box.low ? v : box.low;
+        box.high = v > box.high ? v : box.high;
+        square = std::max(square, norm_square(v - middle));
       }
       top[b] = square;
       for (int d = 0; d < 3; ++d)
@@ -40,7 +42,7 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
   MPI_Allreduce(MPI_IN_PLACE, top.data(), top.size(), MPI_DOUBLE, MPI_MAX,
                 communicator);
   for (int d = 0; d < 3; ++d)
-    middle[d] = 0.5 * (top[n + 3 + d] - top[n + d]);
+    middle[d] = mirrored >> d & 1 ? 0. : 0.5 * (top[n + 3 + d] - top[n + d]);
   double speed = 0.;
   for (const auto &pair : pairs)
     speed = std::max(speed,

@@ -30,7 +30,7 @@ void Contact::initialize()
   skin = 1e300;
   for (const ContactPair &pair : pairs)
     for (const int b : {pair.faces_of, pair.nodes_of})
-      skin = std::min(skin, 0.5 * surfaces[b].spacing);
+      skin = std::min(skin, surfaces[b].spacing);
   search();
   halo.update();
   double worst = 0.;

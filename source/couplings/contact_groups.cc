@@ -1,6 +1,7 @@
 // Which nodes a contact watches, from one search to the next and in
 // checkpoints.
 #include "sabot/couplings/contact.h"
+#include "sabot/couplings/faces_of_nodes.h"
 
 #include <algorithm>
 
@@ -37,6 +38,7 @@ void Contact::search()
   std::vector<std::size_t> number_of_face;
   const std::vector<KeptNode> kept = keep_relevant(found, number_of_face);
   groups.clear();
+  groups.reserve(kept.size());
   for (const KeptNode &node : kept)
     groups.push_back(make_group(found, node, number_of_face));
   reset_slots();
@@ -52,42 +54,23 @@ NodeKey corner_of(const SearchResult &found, const std::size_t face,
   return {found.faces[face].body, 0, found.faces[face].node[corner]};
 }
 
-/** Corners and numbers of all faces, ascending. */
-std::vector<std::pair<NodeKey, std::size_t>>
-faces_by_node(const SearchResult &found)
+/** Mark also the faces around the marked nodes and around the corners of marked
+    faces, for the normals there; mark the corners of all. */
+void add_neighbors(const SearchResult &found, FacesOfNodes &around,
+                   NodeTable &is_node_needed, std::vector<char> &is_needed)
 {
-  std::vector<std::pair<NodeKey, std::size_t>> faces;
-  faces.reserve(4 * found.faces.size());
-  for (std::size_t f = 0; f < found.faces.size(); ++f)
-    for (int a = 0; a < 4; ++a)
-      faces.emplace_back(corner_of(found, f, a), f);
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
-
-/** Mark also the faces around the @p nodes and around the corners of those
-    marked, for the normals there; append the corners of all to the nodes. */
-void add_neighbors(const SearchResult &found, std::vector<NodeKey> &nodes,
-                   std::vector<char> &is_needed)
-{
-  const auto key = [&](const std::size_t f, const int a)
-  { return corner_of(found, f, a); };
-  for (std::size_t f = 0; f < is_needed.size(); ++f)
-    if (is_needed[f])
-      for (int a = 0; a < 4; ++a)
-        nodes.push_back(key(f, a));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const std::vector<NodeKey> with_normal = nodes;
-  for (std::size_t f = 0; f < is_needed.size(); ++f)
+  const auto mark_corners = [&]
   {
-    for (int a = 0; a < 4; ++a)
-      is_needed[f] |=
-          std::binary_search(with_normal.begin(), with_normal.end(), key(f, a));
-    if (is_needed[f])
-      for (int a = 0; a < 4; ++a)
-        nodes.push_back(key(f, a));
-  }
+    for (std::size_t f = 0; f < is_needed.size(); ++f)
+      if (is_needed[f])
+        for (int a = 0; a < 4; ++a)
+          is_node_needed[corner_of(found, f, a)] = 0;
+  };
+  mark_corners();
+  for (const NodeKey &node : is_node_needed.keys())
+    for (const std::size_t f : around.around(node))
+      is_needed[f] = 1;
+  mark_corners();
 }
 } // namespace
 
@@ -104,8 +87,8 @@ Contact::keep_relevant(const SearchResult &found,
   for (std::size_t f = 0; f < found.faces.size(); ++f)
     for (const GlobalIndex a : found.faces[f].node)
       is_mine[f] |= owned(found.faces[f].body, a);
-  const std::vector<std::pair<NodeKey, std::size_t>> own = faces_by_node(found);
-  std::vector<NodeKey> needed;
+  FacesOfNodes around(found.faces, bodies);
+  NodeTable slot_of(bodies);
   std::vector<KeptNode> kept;
   const auto &c = found.candidates;
   for (std::size_t first = 0, last; first < c.size(); first = last)
@@ -116,24 +99,22 @@ Contact::keep_relevant(const SearchResult &found,
       for (auto k = c[last].first_face; k < c[last].last_face; ++k)
         is_relevant |= is_mine[found.face_of_candidate[k]];
     // It may press with a place on one of its own faces.
-    const auto first_own = std::lower_bound(
-        own.begin(), own.end(), std::make_pair(c[first].node, std::size_t(0)));
-    auto last_own = first_own;
-    for (; last_own != own.end() && last_own->first == c[first].node;
-         ++last_own)
-      is_relevant |= is_mine[last_own->second];
+    const FacesOfNodes::Range own = around.around(c[first].node);
+    for (const std::size_t f : own)
+      is_relevant |= is_mine[f];
     if (!is_relevant)
       continue;
-    for (auto face = first_own; face != last_own; ++face)
-      is_needed[face->second] = 1;
+    for (const std::size_t f : own)
+      is_needed[f] = 1;
     kept.push_back({first, last});
-    needed.push_back(c[first].node);
+    slot_of[c[first].node] = 0;
     for (std::size_t i = first; i < last; ++i)
       for (auto k = c[i].first_face; k < c[i].last_face; ++k)
         is_needed[found.face_of_candidate[k]] = 1;
   }
-  add_neighbors(found, needed, is_needed);
-  halo.build(bodies, needed, communicator);
+  add_neighbors(found, around, slot_of, is_needed);
+  halo.build(bodies, slot_of.keys(), communicator);
+  slot_of.take_slots(halo);
   faces.clear();
   face_ids.clear();
   number_of_face.assign(found.faces.size(), 0);
@@ -143,7 +124,7 @@ Contact::keep_relevant(const SearchResult &found,
       number_of_face[f] = faces.corners.size();
       std::array<std::size_t, 4> slots;
       for (int a = 0; a < 4; ++a)
-        slots[a] = halo.slot({found.faces[f].body, 0, found.faces[f].node[a]});
+        slots[a] = slot_of[corner_of(found, f, a)];
       faces.corners.push_back(slots);
       face_ids.push_back(found.faces[f].id);
     }

@@ -26,8 +26,8 @@ public:
         for (const std::size_t b : face)
           ring[a].push_back(body.nodes().global_id[b]);
   }
-  bool may_meet(const std::size_t i, const FaceNodes &face,
-                const FaceProjection &projection,
+  /** @p x: where node @p i is. */
+  bool may_meet(const std::size_t i, const Vec x, const FaceNodes &face,
                 const ContactMemory &memory) const
   {
     constexpr double cosine = 0.5; // as Contact
@@ -36,6 +36,7 @@ public:
     for (const GlobalIndex a : ring[i])
       if (std::find(face.node.begin(), face.node.end(), a) != face.node.end())
         return false;
+    const FaceProjection projection = project_on_face(x, face.x);
     // The far side of a thin part looks the wrong way.
     if (memory.depth > 0.)
       return dot(projection.face_normal, memory.side) >= cosine;
@@ -208,24 +209,23 @@ class FaceBuckets
 public:
   FaceBuckets(const std::vector<FaceNodes> &faces, const std::size_t n_bodies,
               const double reach)
-      : first_face(n_bodies + 1, 0)
+      : boxes(faces.size()), first_face(n_bodies + 1, 0)
   {
-    std::vector<Box> boxes(faces.size());
-    for (const FaceNodes &face : faces)
-      balls.emplace_back(face.x);
+    std::vector<Box> around(faces.size());
     // Faces of a body are contiguous.
     for (std::size_t f = 0; f < faces.size(); ++f)
     {
       for (const Vec x : faces[f].x)
         boxes[f].add(x);
-      boxes[f].inflate(reach);
+      around[f] = boxes[f];
+      around[f].inflate(reach);
       ++first_face[faces[f].body + 1];
     }
     for (std::size_t b = 0; b < n_bodies; ++b)
     {
       first_face[b + 1] += first_face[b];
-      buckets.emplace_back(std::vector<Box>(boxes.begin() + first_face[b],
-                                            boxes.begin() + first_face[b + 1]),
+      buckets.emplace_back(std::vector<Box>(around.begin() + first_face[b],
+                                            around.begin() + first_face[b + 1]),
                            reach);
     }
   }
@@ -234,8 +234,9 @@ public:
     const auto near = buckets[body].find(x);
     return near.first != near.second;
   }
-  /** Calls @p action(face) for the faces of @p body that may be within
-      @p distance of @p x, ascending. */
+  /** Calls @p action(face) for the faces of @p body whose boxes are within
+      @p distance of @p x, ascending: those that may be as near, and few others.
+   */
   template <typename Action>
   void for_near(const int body, const Vec x, const double distance,
                 const Action &action) const
@@ -244,14 +245,13 @@ public:
     for (const std::int32_t *item = near.first; item != near.second; ++item)
     {
       const std::int64_t f = first_face[body] + *item;
-      const double far = distance + balls[f].radius;
-      if (norm_square(x - balls[f].center) <= far * far)
+      if (boxes[f].distance_square(x) <= distance * distance)
         action(f);
     }
   }
 
 private:
-  std::vector<FaceBall> balls;
+  std::vector<Box> boxes;
   std::vector<std::size_t> first_face; // of each body
   std::vector<BoxBuckets> buckets;     // per body
 };
@@ -316,16 +316,13 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
         std::clamp(memory.depth, search.spacing, deepest_known(search)) +
         search.skin;
     const std::int64_t first = near.size();
-    buckets.for_near(
-        pair.faces_of, x, reach,
-        [&](const std::int64_t f)
-        {
-          const FaceNodes &face = result.faces[f];
-          const FaceProjection projection = project_on_face(x, face.x);
-          if (projection.distance_square < reach * reach &&
-              (!with_itself || own_faces.may_meet(i, face, projection, memory)))
-            near.push_back(f);
-        });
+    buckets.for_near(pair.faces_of, x, reach,
+                     [&](const std::int64_t f)
+                     {
+                       if (!with_itself ||
+                           own_faces.may_meet(i, x, result.faces[f], memory))
+                         near.push_back(f);
+                     });
     const std::int64_t last = near.size();
     SmoothNormal own;
     if (last > first && particles != nullptr && !is_loose[i])
@@ -361,6 +358,7 @@ SearchResult ContactSearch::find() const
   SearchResult result;
   result.faces = gather_faces(*this, extents, reach);
   const FaceBuckets buckets(result.faces, bodies.size(), reach);
+  result.candidates.reserve(2 * memories.size());
   for (const ContactPair &pair : pairs)
     try_nodes(*this, pair, extents[pair.faces_of].faces, buckets, result);
   share_candidates(result, bodies, communicator);

@@ -3,6 +3,7 @@
 
 #include "sabot/couplings/contact_search.h"
 #include "sabot/couplings/mirror_images.h"
+#include "sabot/couplings/node_table.h"
 #include "sabot/kernels/point_buckets.h"
 
 #include <algorithm>
@@ -49,28 +50,13 @@ void SelfContact::initialize()
 
 void SelfContact::update_search(const unsigned int, const double dt)
 {
-  double speed = age.closing_speed.largest(bodies, body_pairs, communicator);
-  if (images.any())
-    speed = std::max(speed, speed_towards_images());
-  age.traveled += speed * dt;
+  age.traveled += age.closing_speed.largest(bodies, body_pairs, communicator,
+                                            images.axes()) *
+                  dt;
   // Newly failed particles are met at the next search; those that come close
   // by then were bonded until the last kernel update.
   if (age.traveled > skin || age.have_changed(bodies))
     search();
-}
-
-double SelfContact::speed_towards_images() const
-{
-  double largest = 0.;
-  for (const auto &[a, b] : body_pairs)
-    for (const int body : {a, b})
-    {
-      const NodalState &nodes = bodies[body]->nodes();
-      for (std::size_t i = 0; i < nodes.n_owned; ++i)
-        largest = std::max(largest, norm_square(nodes.velocity[i]));
-    }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  return 2. * std::sqrt(largest);
 }
 
 SelfContact::Pair SelfContact::make_pair(const NodeKey &a, const NodeKey &b,
@@ -115,9 +101,11 @@ void SelfContact::find_pairs()
   for (std::size_t k = 0; k < items.size(); ++k)
     buckets.add(items[k].x, k);
   std::vector<Pair> found;
+  found.reserve(pairs.size() + pairs.size() / 8);
   for (const LooseParticle &from : debris.mine)
   {
     const NodeKey &a = from.key;
+    const std::size_t first_found = found.size();
     const std::uint64_t images_of_a = images.near(a.body, from.x, reach);
     buckets.for_near(
         from.x,
@@ -150,12 +138,16 @@ void SelfContact::find_pairs()
           found.back().area *= share;
           found.back().largest_friction *= share;
         });
+    std::sort(found.begin() + first_found, found.end(), comes_before);
   }
-  std::sort(found.begin(), found.end(), comes_before);
+  // In order already, but for pairs whose first one another rank owns.
+  if (!std::is_sorted(found.begin(), found.end(), comes_before))
+    std::sort(found.begin(), found.end(), comes_before);
+  auto old = pairs.begin();
   for (Pair &pair : found)
   {
-    const auto old =
-        std::lower_bound(pairs.begin(), pairs.end(), pair, comes_before);
+    while (old != pairs.end() && comes_before(*old, pair))
+      ++old;
     if (old != pairs.end() && !comes_before(pair, *old))
       pair.distance = std::min(old->distance, pair.largest_distance);
   }
@@ -179,18 +171,17 @@ void SelfContact::search()
 
 void SelfContact::build_halo()
 {
-  std::vector<NodeKey> needed;
+  NodeTable slot_of(bodies);
   for (const Pair &pair : pairs)
-  {
-    needed.push_back(pair.first);
-    needed.push_back(pair.second);
-  }
-  halo.build(bodies, needed, communicator);
+    slot_of[pair.first] = slot_of[pair.second] = 0;
+  halo.build(bodies, slot_of.keys(), communicator);
+  slot_of.take_slots(halo);
   for (Pair &pair : pairs)
   {
-    pair.slot[0] = halo.slot(pair.first);
-    pair.slot[1] = halo.slot(pair.second);
+    pair.slot[0] = slot_of[pair.first];
+    pair.slot[1] = slot_of[pair.second];
   }
+  wake.assign(pairs.size(), 0.);
   softening.resize(halo.size());
   forces.resize(halo.size());
 }
@@ -200,15 +191,25 @@ void SelfContact::soften(const double dt)
   // The stiffness of all that touches a particle bounds its frequency; that of
   // particles owned here is complete.
   std::fill(softening.begin(), softening.end(), 0.);
-  for (const Pair &pair : pairs)
-    if (norm_square(images.mirrored(pair.image, halo.position[pair.slot[1]]) -
-                    halo.position[pair.slot[0]]) <
-        pair.distance * pair.distance)
+  touching.clear();
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+  {
+    if (age.traveled < wake[p])
+      continue; // still apart
+    const Pair &pair = pairs[p];
+    const std::size_t a = pair.slot[0], b = pair.slot[1];
+    const double square = norm_square(
+        images.mirrored(pair.image, halo.position[b]) - halo.position[a]);
+    if (square >= pair.distance * pair.distance)
     {
-      softening[pair.slot[0]] += pair.stiffness;
-      if (pair.slot[1] != pair.slot[0])
-        softening[pair.slot[1]] += pair.stiffness;
+      wake[p] = age.traveled + 0.99 * (std::sqrt(square) - pair.distance);
+      continue;
     }
+    touching.push_back(p);
+    softening[a] += pair.stiffness;
+    if (b != a)
+      softening[b] += pair.stiffness;
+  }
   for (std::size_t s = 0; s < halo.n_owned(); ++s)
     softening[s] =
         std::min(1., 0.5 * options.stability_fraction * halo.inertia[s] /
@@ -224,7 +225,7 @@ void SelfContact::add_forces(const double dt)
     return;
   soften(dt);
   points.clear();
-  for (std::size_t number = 0; number < pairs.size(); ++number)
+  for (const std::size_t number : touching)
   {
     const Pair &pair = pairs[number];
     const std::size_t a = pair.slot[0], b = pair.slot[1];

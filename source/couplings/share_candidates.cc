@@ -3,6 +3,7 @@
 #include "sabot/couplings/share_candidates.h"
 
 #include "sabot/base/send_some.h"
+#include "sabot/couplings/faces_of_nodes.h"
 
 #include <algorithm>
 
@@ -19,36 +20,6 @@ bool come_in_order(const FaceNodes &a, const FaceNodes &b)
 {
   return key_of(a) < key_of(b);
 }
-
-/** The faces around each node. */
-class FacesOfNodes
-{
-public:
-  explicit FacesOfNodes(const std::vector<FaceNodes> &faces)
-  {
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      for (const GlobalIndex a : faces[f].node)
-        around.emplace_back(NodeKey{faces[f].body, 0, a}, f);
-    std::sort(around.begin(), around.end(),
-              [](const Entry &a, const Entry &b) {
-                return a.first == b.first ? a.second < b.second
-                                          : a.first < b.first;
-              });
-  }
-  /** Append those around @p node to @p found. */
-  void append(const NodeKey &node, std::vector<std::size_t> &found) const
-  {
-    for (auto at = std::lower_bound(around.begin(), around.end(), node,
-                                    [](const Entry &e, const NodeKey &k)
-                                    { return e.first < k; });
-         at != around.end() && at->first == node; ++at)
-      found.push_back(at->second);
-  }
-
-private:
-  using Entry = std::pair<NodeKey, std::size_t>;
-  std::vector<Entry> around;
-};
 
 void make_unique(std::vector<std::size_t> &numbers)
 {
@@ -72,12 +43,12 @@ struct Letters
 /** Candidates @p first to @p last - 1 are those of one node. */
 void write_letters(const SearchResult &result, const std::size_t first,
                    const std::size_t last, const std::vector<Body *> &bodies,
-                   const int rank, const FacesOfNodes &faces, Letters &letters)
+                   const int rank, FacesOfNodes &faces, Letters &letters)
 {
   const auto &c = result.candidates;
   // What it may touch, and its own faces, with a place of which it may press.
-  std::vector<std::size_t> concerned;
-  faces.append(c[first].node, concerned);
+  const FacesOfNodes::Range own = faces.around(c[first].node);
+  std::vector<std::size_t> concerned(own.begin(), own.end());
   for (auto k = c[first].first_face; k < c[last - 1].last_face; ++k)
     concerned.push_back(result.face_of_candidate[k]);
   make_unique(concerned);
@@ -90,7 +61,11 @@ void write_letters(const SearchResult &result, const std::size_t first,
   if (owners.size() > 1)
     for (const std::size_t f : concerned)
       for (const GlobalIndex a : result.faces[f].node)
-        faces.append({result.faces[f].body, 0, a}, around);
+      {
+        const FacesOfNodes::Range its =
+            faces.around({result.faces[f].body, 0, a});
+        around.insert(around.end(), its.begin(), its.end());
+      }
   make_unique(around);
   for (const std::size_t r : owners)
   {
@@ -140,7 +115,7 @@ void share_candidates(SearchResult &result, const std::vector<Body *> &bodies,
   if (n_ranks == 1)
     return;
   Letters letters(n_ranks);
-  const FacesOfNodes around(result.faces);
+  FacesOfNodes around(result.faces, bodies);
   const auto &c = result.candidates;
   for (std::size_t first = 0, last; first < c.size(); first = last)
   {

@@ -1,6 +1,8 @@
 // How far two bodies may close in within a step.
 #include "sabot/bodies/rigid/rigid_body.h"
+#include "sabot/couplings/box_buckets.h"
 #include "sabot/couplings/closing_limit.h"
+#include "sabot/couplings/closing_speed.h"
 #include "sabot/couplings/contact.h"
 #include "verification/world.h"
 
@@ -53,5 +55,40 @@ TEST(Closing, rigid_bodies_close_in_by_what_their_spring_stops)
   // That of the contact, not of any; of two the softer one.
   EXPECT_NEAR(step_with({0.25 * phi}) / step_with({phi}), 0.5, 1e-12);
   EXPECT_EQ(step_with({phi, 0.25 * phi}), step_with({0.25 * phi}));
+}
+
+TEST(Closing, speed_bounds_nodes_and_their_images)
+{
+  World world;
+  for (const double x : {300., 100.})
+  {
+    RigidOptions options;
+    options.initial_velocity = {{x, 10., -900.}};
+    BoxSpecification box;
+    box.size = {{1e-3, 1e-3, 1e-3}};
+    box.cell_size = 1e-3;
+    world.bodies.push_back(
+        std::make_unique<RigidBody>("block", world.bodies.size(),
+                                    make_graded_box(box), elastic(), options));
+  }
+  world.distribute();
+  const std::vector<std::pair<int, int>> pair = {{0, 1}};
+  // What flies along costs nothing once it is known, but across a plane.
+  ClosingSpeed speed, with_images;
+  speed.largest(world.pointers(), pair, MPI_COMM_WORLD);
+  EXPECT_NEAR(speed.largest(world.pointers(), pair, MPI_COMM_WORLD), 200.,
+              1e-9);
+  with_images.largest(world.pointers(), pair, MPI_COMM_WORLD, 1u);
+  EXPECT_NEAR(with_images.largest(world.pointers(), pair, MPI_COMM_WORLD, 1u),
+              400., 1e-9);
+}
+
+TEST(Closing, box_tells_its_distance)
+{
+  Box box;
+  box.add(vec(0., 0., 0.));
+  box.add(vec(1., 2., 3.));
+  EXPECT_EQ(box.distance_square(vec(0.5, 1., 3.)), 0.);
+  EXPECT_EQ(box.distance_square(vec(3., 1., -1.)), 5.);
 }
 } // namespace

@@ -44,6 +44,17 @@ struct Box
         return false;
     return true;
   }
+  /** From @p x to the closest point of the box, squared; 0 inside [m^2]. */
+  double distance_square(const Vec x) const
+  {
+    double square = 0.;
+    for (int d = 0; d < 3; ++d)
+    {
+      const double away = std::max({0., low[d] - x[d], x[d] - high[d]});
+      square += away * away;
+    }
+    return square;
+  }
   /** Largest gap along an axis [m]; negative where the boxes overlap. Bodies
       whose boxes are this far apart have to travel as far before they meet. */
   double distance(const Box &o) const;

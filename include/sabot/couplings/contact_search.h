@@ -59,7 +59,8 @@ struct SearchResult
 using ContactMemories = std::vector<std::pair<NodeKey, ContactMemory>>;
 
 /**
- * Bucket search: every node of the pairs with the faces closer than
+ * Bucket search: every node of the pairs with the faces whose boxes along the
+ * axes are closer than
  * max(spacing, its depth, at most 3 spacings) + skin. Three steps: faces near
  * the other body's nodes go to the ranks with nodes near them and into buckets;
  * each rank tries its own nodes; what was found goes to the ranks that own a

@@ -92,14 +92,10 @@ private:
   Pair make_pair(const NodeKey &a, const NodeKey &b, const std::uint64_t image,
                  const double distance, const double reach,
                  const DebrisView &of_a, const DebrisView &of_b) const;
-  /** Largest speed at which a particle and the image of another may close in
-      [m/s]: twice that across a plane, which flying along with the scene does
-      not make less. Collective. */
-  double speed_towards_images() const;
   /** Slots of the nodes of all pairs. Collective. */
   void build_halo();
-  /** Scale the stiffness of all that touches a particle below its bound.
-      Collective. */
+  /** Find the pairs that touch, and scale the stiffness of all that touches a
+      particle below its bound. Collective. */
   void soften(const double dt);
   /** Forces on the second particle, the opposite on the first. */
   void push(const ContactPoint &on_second);
@@ -111,7 +107,11 @@ private:
   const DebrisImages images;
   std::vector<Pair> pairs; // sorted by keys
   NodeHalo halo;
-  std::vector<double> softening; // per slot, of the stiffness
+  /** SearchAge::traveled up to which a pair stays apart [m]; no state, for what
+      is apart does nothing. */
+  std::vector<double> wake;
+  std::vector<std::size_t> touching; // pairs, ascending
+  std::vector<double> softening;     // per slot, of the stiffness
   HaloForces forces;
   ContactPoints points; // of the step
   double skin = 0.;
