@@ -3,10 +3,9 @@
 #include "sabot/couplings/closing_limit.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/friction/coulomb.h"
-#include "sabot/geometry/round_bodies.h"
 #include "verification/heavy.h"
 #include "verification/problem.h"
-#include "verification/world.h"
+#include "verification/rolling.h"
 
 #include <cstdio>
 
@@ -14,8 +13,6 @@ namespace sabot
 {
 namespace
 {
-constexpr double R = 5e-3; // [m]
-
 /** What rolls on a flat rigid wall, whose upper face is z = 0, in the direction
     x, under a weight that grows within a fifth of the time. */
 struct Rolling
@@ -27,23 +24,6 @@ struct Rolling
   double factor = 0.9;
 };
 
-HexMesh round(const bool is_ball, const double h)
-{
-  HexMesh mesh = is_ball ? make_sphere(R, {{0., 0., 0.}}, h)
-                         : make_cylinder(R, 4e-3, 1, {{0., 0., 0.}}, h);
-  // A vertex is not to be below at the start.
-  const double angle = 0.1, c = std::cos(angle), s = std::sin(angle);
-  double low = 0.;
-  for (auto &p : mesh.nodes)
-  {
-    p = {{c * p[0] + s * p[2], p[1], c * p[2] - s * p[0]}};
-    low = std::min(low, p[2]);
-  }
-  for (auto &p : mesh.nodes)
-    p[2] -= low;
-  return mesh;
-}
-
 void add_round(World &world, const Rolling &s)
 {
   const Vec gravity = vec(0., 0., -s.g);
@@ -52,7 +32,7 @@ void add_round(World &world, const Rolling &s)
     RigidOptions options;
     options.initial_velocity = {{s.v, 0., 0.}};
     world.bodies.push_back(std::make_unique<Heavy<RigidBody>>(
-        gravity, 0.2 * s.end, "round", 0, round(s.is_ball, s.h), elastic(),
+        gravity, 0.2 * s.end, "round", 0, round_mesh(s.is_ball, s.h), elastic(),
         options));
     return;
   }
@@ -60,7 +40,7 @@ void add_round(World &world, const Rolling &s)
   options.initial_velocity = {{s.v, 0., 0.}};
   options.hourglass = "stiffness";
   world.bodies.push_back(std::make_unique<Heavy<FemBody>>(
-      gravity, 0.2 * s.end, "round", 0, round(s.is_ball, s.h), elastic(),
+      gravity, 0.2 * s.end, "round", 0, round_mesh(s.is_ball, s.h), elastic(),
       options));
 }
 
@@ -72,38 +52,6 @@ struct Ride
   double mean_velocity = 0., mean_spin = 0.;
   double mean = 0., ripple = 0.; // of the force over the weight
 };
-
-struct State
-{
-  Vec velocity = {};
-  double spin = 0., mass = 0., inertia = 0., radius = 0.; // about y
-};
-
-State state_of(const World &world)
-{
-  const NodalState &n = world.bodies[0]->nodes();
-  Vec center = {}, momentum = {};
-  State s;
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-  {
-    center += n.inertia[i] * n.position[i];
-    momentum += n.inertia[i] * n.velocity[i];
-    s.mass += n.inertia[i];
-  }
-  center *= 1. / s.mass;
-  s.velocity = (1. / s.mass) * momentum;
-  double l = 0.;
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-  {
-    const Vec r = n.position[i] - center;
-    l += n.inertia[i] * cross(r, n.velocity[i] - s.velocity)[1];
-    const double square = r[0] * r[0] + r[2] * r[2];
-    s.inertia += n.inertia[i] * square;
-    s.radius = std::max(s.radius, std::sqrt(square));
-  }
-  s.spin = l / s.inertia;
-  return s;
-}
 
 Ride ride(const Rolling &s)
 {
@@ -133,7 +81,7 @@ Ride ride(const Rolling &s)
   while (world.stepper.time() < s.end)
   {
     const double dt = world.advance(s.factor);
-    const State now = state_of(world);
+    const RollingState now = rolling_state(world);
     double f = 0.;
     for (const Resultant &r : world.couplings[0]->resultants())
       if (r.body == 0)
@@ -147,7 +95,7 @@ Ride ride(const Rolling &s)
       r.mean_spin += dt * now.spin * now.radius / s.v;
     }
   }
-  const State last = state_of(world);
+  const RollingState last = rolling_state(world);
   r.rolling =
       1. / (1. + last.inertia / (last.mass * last.radius * last.radius));
   r.velocity = last.velocity[0] / s.v;
