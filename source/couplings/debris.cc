@@ -137,14 +137,15 @@ std::uint64_t DebrisImages::near(const int body, const Vec x,
   return found;
 }
 
-double DebrisImages::share(const LooseParticle &a, const LooseParticle &b) const
+int DebrisImages::n_common_planes(const LooseParticle &a,
+                                  const LooseParticle &b) const
 {
-  double share = 1.;
+  int n = 0;
   for (std::size_t w = 0; w < walls.size(); ++w)
     if (of_body[a.key.body] >> w & of_body[b.key.body] >> w & 1 &&
         walls[w].distance(a.x) == 0. && walls[w].distance(b.x) == 0.)
-      share *= 0.5;
-  return share;
+      ++n;
+  return n;
 }
 
 std::vector<DebrisImages::Item>

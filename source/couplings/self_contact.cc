@@ -124,16 +124,19 @@ void SelfContact::find_pairs()
           if (a.body == b.body && other.image == 0 &&
               bodies[a.body]->particles()->are_bonded(from.local, b.node))
             return;
+          const bool are_continuous =
+              a.body == b.body && from.is_continuous && to.is_continuous;
+          const int n_planes = images.n_common_planes(from, to);
+          if (are_continuous && n_planes > 1)
+            return; // pieces in a file buckle, though planes keep them in line
           // Where their continuum bears the pressure, they only must not pass
           // through each other where it is loose.
           const double core =
-              a.body == b.body && from.is_continuous && to.is_continuous
-                  ? core_distance
-                  : options.contact_distance;
+              are_continuous ? core_distance : options.contact_distance;
           found.push_back(make_pair(a, b, other.image, distance, core,
                                     debris.views[a.body],
                                     debris.views[b.body]));
-          const double share = images.share(from, to);
+          const double share = std::ldexp(1., -n_planes);
           found.back().stiffness *= share;
           found.back().area *= share;
           found.back().largest_friction *= share;

@@ -51,9 +51,9 @@ public:
   Vec to_own_image(const std::uint64_t image, Vec offset) const;
   /** The planes that body @p body meets closer to @p x than @p reach [m]. */
   std::uint64_t near(const int body, const Vec x, const double reach) const;
-  /** The part of what acts between two particles that the model holds: 1/2 for
-      each plane that both lie on. */
-  double share(const LooseParticle &a, const LooseParticle &b) const;
+  /** Number of planes that both particles lie on. The model holds half of what
+      acts between them for each. */
+  int n_common_planes(const LooseParticle &a, const LooseParticle &b) const;
   /** All particles, with their images in planes closer than @p reach [m]. */
   std::vector<Item> with_images(const std::vector<LooseParticle> &particles,
                                 const double reach) const;

@@ -32,6 +32,8 @@ struct SelfContactOptions : ContactOptions
  * particle a moves it with a frequency below (2 S_a/m_a)^(1/2) (Gershgorin),
  * so k is scaled down to keep 2 S_a dt^2/m_a below the stability fraction.
  *
+ * Crumbled particles of one continuum that lie on two planes of symmetry do not
+ * repel each other: in the whole such a file of pieces buckles.
  * Where planes of symmetry cut the model, debris also meets the mirror images
  * of all debris in them, its own included. Of a pair (a, image of b) the force
  * on b is the image of that on the image, which (b, image of a) gives as well:
