@@ -3,7 +3,6 @@
 
 #include "sabot/base/gather_all.h"
 #include "sabot/couplings/lattice_spin.h"
-#include "sabot/geometry/hex_mesh.h"
 
 #include <algorithm>
 
@@ -127,17 +126,15 @@ LatticeFollowers::slopes(const std::vector<Turning> &turned) const
     double volume = 0.;
     for (const GlobalIndex cell : lattices.cells_around(lattices.carrier(a)))
     {
-      HexMesh one{{}, {{{0, 1, 2, 3, 4, 5, 6, 7}}}, {}, {}, {}};
-      std::array<Vec, 8> v;
+      std::array<Vec, 8> X, v;
       for (int b = 0; b < 8; ++b)
       {
         const std::size_t at =
             body.source.local_node(lattices.nodes_of(cell)[b]);
-        const Vec X = nodes.reference_position[at];
-        one.nodes.push_back({{X[0], X[1], X[2]}});
+        X[b] = nodes.reference_position[at];
         v[b] = nodes.velocity[at];
       }
-      const MeanGradients mean = mean_gradients(one, 0);
+      const MeanGradients mean = mean_gradients(X);
       for (int b = 0; b < 8; ++b)
         add_outer(slope.gradient, v[b],
                   mean.volume * vec(mean.B[b][0], mean.B[b][1], mean.B[b][2]));

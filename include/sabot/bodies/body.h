@@ -129,7 +129,7 @@ struct DebrisView
     symmetry cuts is the whole piece, of which the model holds a part. */
 struct Fragment
 {
-  GlobalIndex label = -1; // least number of a particle in it
+  GlobalIndex label = -1;           // least number of a particle in it
   GlobalIndex n_particles = 0;      // of the model
   double mass = 0.;                 // of the whole piece [kg]
   std::array<double, 3> velocity{}; // of its center of mass [m/s]
