@@ -140,7 +140,7 @@ std::vector<Check> punched_column()
                       0., (part.ahead - whole.ahead) / spacing, 2.5, "1",
                       "symmetry of the problem", Check::Kind::at_most});
     checks.push_back({who + ": spread to the sides over that of the whole", 1.,
-                      part.spread / whole.spread, 0.1, "1",
+                      part.spread / whole.spread, 0.15, "1",
                       "symmetry of the problem"});
   }
   return checks;

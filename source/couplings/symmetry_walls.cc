@@ -31,6 +31,15 @@ Extent extent(const Body &body, const int axis)
   }
   return e;
 }
+
+/** Where @p body is of particles that are yet to come: their host. */
+const Body &whole_of(const Body &body, const std::vector<Body *> &bodies)
+{
+  for (const Body *host : bodies)
+    if (host->own_particles == &body)
+      return *host;
+  return body;
+}
 } // namespace
 
 std::vector<std::vector<SymmetryWall>>
@@ -39,9 +48,10 @@ find_symmetry_walls(const std::vector<Body *> &bodies)
   std::vector<std::vector<SymmetryWall>> walls(bodies.size());
   std::vector<SymmetryWall> all;
   for (const Body *body : bodies)
-    for (const SymmetryPlane &plane : body->planes_of_symmetry())
+    for (const SymmetryPlane &plane :
+         whole_of(*body, bodies).planes_of_symmetry())
     {
-      const Extent e = extent(*body, plane.axis);
+      const Extent e = extent(whole_of(*body, bodies), plane.axis);
       const double side = e.middle > plane.coordinate ? 1. : -1.,
                    tolerance = round_off * (e.high - e.low);
       if (std::none_of(all.begin(), all.end(),
@@ -55,20 +65,23 @@ find_symmetry_walls(const std::vector<Body *> &bodies)
         all.push_back({plane, side});
     }
   for (std::size_t b = 0; b < bodies.size(); ++b)
+  {
+    const Body &whole = whole_of(*bodies[b], bodies);
     for (const SymmetryWall &wall : all)
     {
-      const Extent e = extent(*bodies[b], wall.plane.axis);
+      const Extent e = extent(whole, wall.plane.axis);
       const double first = wall.side > 0. ? e.low - wall.plane.coordinate
                                           : wall.plane.coordinate - e.high;
       const double tolerance = round_off * (e.high - e.low);
       if (first < -tolerance)
         continue;
       walls[b].push_back(wall);
-      for (const SymmetryPlane &own : bodies[b]->planes_of_symmetry())
+      for (const SymmetryPlane &own : whole.planes_of_symmetry())
         if (own.axis == wall.plane.axis &&
             std::abs(own.coordinate - wall.plane.coordinate) <= tolerance)
           walls[b].back().held_within = tolerance;
     }
+  }
   return walls;
 }
 

@@ -5,7 +5,6 @@
 #include "sabot/bodies/fem/fem_options.h"
 #include "sabot/bodies/fem/hourglass.h"
 #include "sabot/bodies/fem/one_point.h"
-#include "sabot/kernels/coarse_pack.h"
 
 #include <gtest/gtest.h>
 
@@ -105,20 +104,6 @@ TEST(Hourglass, modes_see_no_linear_field_and_forces_do_their_work)
     for (int k = 0; k < 4; ++k)
       EXPECT_EQ(mode[k], k == m ? 8. : 0.);
   }
-}
-
-TEST(CoarsePack, rounds_to_the_nearest)
-{
-  const Pack a = {1., -3.141592653589793, 1.00390625, 6.02214e23};
-  const Pack b = to_double(to_coarse(a));
-  EXPECT_EQ(b[0], 1.);
-  EXPECT_EQ(b[2], 1.); // half way: to the even one
-  for (std::size_t l = 0; l < n_lanes; ++l)
-    EXPECT_NEAR(b[l] / a[l], 1., 1. / 256.) << l;
-  EXPECT_EQ(to_double(to_coarse(-a))[1], -b[1]);
-  EXPECT_EQ(to_double(to_coarse(a)[1]), b[1]);
-  const Pack none = {};
-  EXPECT_EQ(to_double(to_coarse(none))[3], 0.);
 }
 
 FemOptions options_with(const std::string &entry, const std::string &value)

@@ -115,7 +115,7 @@ void OnePoint::copy_cell(const std::size_t from, const std::size_t to)
   copy(warp, 0.);
   copy(motion, 0.);
   copy(reference_modes, 0.);
-  copy(last_forces, std::uint16_t(0));
+  copy(last_forces, 0.f);
 }
 
 void OnePoint::fill_up()
@@ -195,7 +195,7 @@ void OnePoint::kept_modes(const std::size_t e, Vec kept[4]) const
     if (!reference_modes.empty())
       kept[m] = lane_of(reference_modes[pack].mode[m], lane);
     for (int d = 0; d < 3 && !last_forces.empty(); ++d)
-      kept[m][d] = to_double(last_forces[pack].mode[m][d][lane]);
+      kept[m][d] = last_forces[pack].mode[m][d][lane];
   }
 }
 
@@ -239,7 +239,7 @@ void OnePoint::visit_state(StateVisitor &visitor, const StateItems &of_cells)
   };
   visit("motion", motion, sizeof(double));
   if (!keeps_reference_modes())
-    visit("modal forces", last_forces, sizeof(std::uint16_t));
+    visit("modal forces", last_forces, sizeof(float));
   Hexahedra::visit_state(visitor, of_cells);
 }
 

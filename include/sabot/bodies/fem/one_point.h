@@ -2,7 +2,6 @@
 #define sabot_bodies_fem_one_point_h
 
 #include "sabot/bodies/fem/hexahedra.h"
-#include "sabot/kernels/coarse_pack.h"
 #include "sabot/kernels/pack.h"
 
 #include <memory>
@@ -113,11 +112,12 @@ protected:
     Pack mode[4][3];
   };
   /** The modal forces of the last step [N], for the work of the mean of both
-      ends: they are books, and no force that stays is made of them, so that a
-      few digits will do whose errors cancel out over cells and steps. */
+      ends: they are books, and no force that stays is made of them, so that
+      single precision will do. With bfloat16 energies knew the units that a
+      scene is written in by 2e-6. */
   struct LastForces
   {
-    CoarsePack mode[4][3];
+    HalfPack mode[4][3];
   };
   /** Of one pack of cells, from kinematics to forces. Written by the
       kinematics of the loop, read by scatter() once the law has the stress:

@@ -49,7 +49,7 @@ public:
         const Pack r = cells.rate[i][m] - dot(cells.L.m[i], pulled[m]);
         const Pack f = bounded * r;
         work += (f + to_double(kept.mode[m][i])) * r;
-        kept.mode[m][i] = to_coarse(f);
+        kept.mode[m][i] = to_float(f);
         out.mode[m][i] = f;
         for (int j = 0; j < 3; ++j)
           out.hourglass.m[i][j] -= f * pulled[m][j];
