@@ -233,6 +233,14 @@ double largest_frequency(const SpgParts &body, Stabilization &form,
       Eigen::Map<const Eigen::VectorXd>(diagonal.data(), m),
       Eigen::Map<const Eigen::VectorXd>(off_diagonal.data(), m - 1),
       Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0., solver.eigenvalues()[m - 1]) / scale);
+  double largest = 0.;
+  if (solver.info() == Eigen::Success)
+    largest = solver.eigenvalues()[m - 1];
+  else // once in some hundred times; values are not sorted then. Gershgorin:
+    for (Eigen::Index k = 0; k < m; ++k)
+      largest =
+          std::max(largest, diagonal[k] + (k > 0 ? off_diagonal[k - 1] : 0.) +
+                                (k + 1 < m ? off_diagonal[k] : 0.));
+  return std::sqrt(std::max(0., largest) / scale);
 }
 } // namespace sabot
