@@ -1,8 +1,4 @@
 // Balls and cylinders of facets that slide, roll and graze as round ones do.
-#include "sabot/bodies/rigid/rigid_body.h"
-#include "sabot/couplings/closing_limit.h"
-#include "sabot/couplings/contact.h"
-#include "sabot/couplings/friction/coulomb.h"
 #include "verification/heavy.h"
 #include "verification/problem.h"
 #include "verification/rolling.h"
@@ -57,25 +53,11 @@ Ride ride(const Rolling &s)
 {
   World world;
   add_round(world, s);
-  RigidOptions fixed;
-  fixed.is_prescribed = true;
   BoxSpecification b;
   b.size = {{s.v * s.end + 8e-3, 10e-3, 2e-3}};
   b.center = {{0.5 * s.v * s.end, 0.1e-3, -1e-3}};
   b.cell_size = s.wall;
-  world.bodies.push_back(std::make_unique<RigidBody>(
-      "wall", 1, make_graded_box(b), elastic(), fixed));
-  ContactOptions options;
-  if (s.mu > 0.)
-    options.friction = coulomb(s.mu);
-  world.couplings.push_back(std::make_unique<Contact>(
-      "contact", world.pointers(),
-      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, options,
-      MPI_COMM_WORLD));
-  world.couplings.push_back(std::make_unique<ClosingLimit>(
-      world.pointers(), world.couplings, MPI_COMM_WORLD));
-  world.distribute();
-  world.stepper.initialize();
+  start_on(world, "wall", make_graded_box(b), s.mu);
   double sum = 0., square = 0., time = 0.;
   Ride r;
   while (world.stepper.time() < s.end)

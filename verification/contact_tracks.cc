@@ -1,9 +1,5 @@
 // What is round rolls and slides in troughs, over hills and down slopes, and
 // loses nothing.
-#include "sabot/bodies/rigid/rigid_body.h"
-#include "sabot/couplings/closing_limit.h"
-#include "sabot/couplings/contact.h"
-#include "sabot/couplings/friction/coulomb.h"
 #include "verification/heavy.h"
 #include "verification/problem.h"
 #include "verification/rolling.h"
@@ -70,21 +66,7 @@ void build(World &world, const Track &t)
     options.hourglass = "stiffness";
     add_rider<FemBody>(world, t, options);
   }
-  RigidOptions fixed;
-  fixed.is_prescribed = true;
-  world.bodies.push_back(
-      std::make_unique<RigidBody>("track", 1, track_mesh(t), elastic(), fixed));
-  ContactOptions options;
-  if (t.mu > 0.)
-    options.friction = coulomb(t.mu);
-  world.couplings.push_back(std::make_unique<Contact>(
-      "contact", world.pointers(),
-      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, options,
-      MPI_COMM_WORLD));
-  world.couplings.push_back(std::make_unique<ClosingLimit>(
-      world.pointers(), world.couplings, MPI_COMM_WORLD));
-  world.distribute();
-  world.stepper.initialize();
+  start_on(world, "track", track_mesh(t), t.mu);
 }
 
 struct Result

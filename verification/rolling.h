@@ -1,7 +1,12 @@
 #ifndef verification_rolling_h
 #define verification_rolling_h
 
+#include "sabot/bodies/rigid/rigid_body.h"
+#include "sabot/couplings/closing_limit.h"
+#include "sabot/couplings/contact.h"
+#include "sabot/couplings/friction/coulomb.h"
 #include "sabot/geometry/round_bodies.h"
+#include "verification/metals.h"
 #include "verification/world.h"
 
 #include <cmath>
@@ -27,6 +32,28 @@ inline HexMesh round_mesh(const bool is_ball, const double h)
   for (auto &p : mesh.nodes)
     p[2] -= low;
   return mesh;
+}
+
+/** Adds what body 0 of a world moves on, fixed, and their contact with friction
+    @p mu; then the world starts. */
+inline void start_on(World &world, const std::string &name, const HexMesh &mesh,
+                     const double mu)
+{
+  RigidOptions fixed;
+  fixed.is_prescribed = true;
+  world.bodies.push_back(
+      std::make_unique<RigidBody>(name, 1, mesh, elastic(), fixed));
+  ContactOptions options;
+  if (mu > 0.)
+    options.friction = coulomb(mu);
+  world.couplings.push_back(std::make_unique<Contact>(
+      "contact", world.pointers(),
+      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, options,
+      MPI_COMM_WORLD));
+  world.couplings.push_back(std::make_unique<ClosingLimit>(
+      world.pointers(), world.couplings, MPI_COMM_WORLD));
+  world.distribute();
+  world.stepper.initialize();
 }
 
 /** Of what rolls, body 0 of a world. */

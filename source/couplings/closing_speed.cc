@@ -28,8 +28,7 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
       for (std::size_t i = 0; i < nodes.n_owned; ++i)
       {
         const Vec v = nodes.velocity[i];
-        box.low = v < box.low ? v : box.low;
-        box.high = v > box.high ? v : box.high;
+        box.add(v);
         square = std::max(square, norm_square(v - middle));
       }
       top[b] = square;

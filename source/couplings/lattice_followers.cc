@@ -126,18 +126,12 @@ LatticeFollowers::slopes(const std::vector<Turning> &turned) const
     double volume = 0.;
     for (const GlobalIndex cell : lattices.cells_around(lattices.carrier(a)))
     {
-      std::array<Vec, 8> X, v;
+      const MeanGradients mean = lattices.gradients(cell);
       for (int b = 0; b < 8; ++b)
-      {
-        const std::size_t at =
-            body.source.local_node(lattices.nodes_of(cell)[b]);
-        X[b] = nodes.reference_position[at];
-        v[b] = nodes.velocity[at];
-      }
-      const MeanGradients mean = mean_gradients(X);
-      for (int b = 0; b < 8; ++b)
-        add_outer(slope.gradient, v[b],
-                  mean.volume * vec(mean.B[b][0], mean.B[b][1], mean.B[b][2]));
+        add_outer(
+            slope.gradient,
+            nodes.velocity[body.source.local_node(lattices.nodes_of(cell)[b])],
+            mean.volume * vec(mean.B[b][0], mean.B[b][1], mean.B[b][2]));
       volume += mean.volume;
     }
     slope.gradient = (1. / volume) * slope.gradient;

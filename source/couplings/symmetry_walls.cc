@@ -48,8 +48,7 @@ find_symmetry_walls(const std::vector<Body *> &bodies)
   std::vector<std::vector<SymmetryWall>> walls(bodies.size());
   std::vector<SymmetryWall> all;
   for (const Body *body : bodies)
-    for (const SymmetryPlane &plane :
-         whole_of(*body, bodies).planes_of_symmetry())
+    for (const SymmetryPlane &plane : body->planes_of_symmetry())
     {
       const Extent e = extent(whole_of(*body, bodies), plane.axis);
       const double side = e.middle > plane.coordinate ? 1. : -1.,

@@ -25,11 +25,8 @@ struct Box
   /** Grow until it has @p x. */
   void add(const Vec x)
   {
-    for (int d = 0; d < 3; ++d)
-    {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
+    low = x < low ? x : low;
+    high = x > high ? x : high;
   }
   /** Move all sides outwards by @p r [m]. */
   void inflate(const double r)

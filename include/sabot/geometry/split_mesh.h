@@ -40,6 +40,10 @@ public:
     return mesh.cells[cell];
   }
   double volume(const GlobalIndex cell) const { return mesh.volume[cell]; }
+  MeanGradients gradients(const GlobalIndex cell) const
+  {
+    return mean_gradients(mesh, cell);
+  }
 
   /** The nodes of a site's edge, face or cell, which carry it as long as it
       does not move by itself; the lowest comes first. Weights N_a. */

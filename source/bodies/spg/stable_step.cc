@@ -14,8 +14,7 @@
 #include "sabot/bodies/spg/spg_parts.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stiffness_bound.h"
-
-#include <Eigen/Dense>
+#include "sabot/kernels/tridiagonal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -227,20 +226,7 @@ double largest_frequency(const SpgParts &body, Stabilization &form,
       motion[i] = root[i] / beta * next[i];
     }
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  const Eigen::Index m = diagonal.size();
-  solver.computeFromTridiagonal(
-      Eigen::Map<const Eigen::VectorXd>(diagonal.data(), m),
-      Eigen::Map<const Eigen::VectorXd>(off_diagonal.data(), m - 1),
-      Eigen::EigenvaluesOnly);
-  double largest = 0.;
-  if (solver.info() == Eigen::Success)
-    largest = solver.eigenvalues()[m - 1];
-  else // once in some hundred times; values are not sorted then. Gershgorin:
-    for (Eigen::Index k = 0; k < m; ++k)
-      largest =
-          std::max(largest, diagonal[k] + (k > 0 ? off_diagonal[k - 1] : 0.) +
-                                (k + 1 < m ? off_diagonal[k] : 0.));
-  return std::sqrt(std::max(0., largest) / scale);
+  return std::sqrt(std::max(0., largest_eigenvalue(diagonal, off_diagonal)) /
+                   scale);
 }
 } // namespace sabot
