@@ -1,4 +1,4 @@
-// Writing of checkpoints: what all ranks have, through rank 0 into one file.
+// Writing of checkpoints: what all ranks have, group by group into files.
 #include "sabot/output/checkpoint.h"
 
 #include "sabot/base/error.h"
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iomanip>
@@ -24,179 +25,34 @@ namespace
 namespace fs = std::filesystem;
 using namespace checkpoint_format;
 
-const std::string prefix = "step-", ending = ".h5";
+const std::string prefix = "step-", failed = "failed", ending = ".h5";
 
-/** An array of bytes in the file, written from its start to its end. */
-class ByteSet
+/** Of "step-12.rank-16.h5": step-12. */
+std::string series_of(const fs::path &file)
 {
-public:
-  ByteSet(const hid_t file, const std::string &name, const hsize_t n)
-      : space(n > 0 ? H5Screate_simple(1, &n, nullptr) : H5Screate(H5S_NULL),
-              H5Sclose),
-        links(H5Pcreate(H5P_LINK_CREATE), H5Pclose),
-        properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose),
-        set(create(file, name), H5Dclose)
-  {
-  }
-  /** Whether there was no trouble. */
-  bool append(const void *const data, const hsize_t n)
-  {
-    if (set < 0 || n == 0)
-      return set >= 0;
-    const Hdf5Handle piece(H5Screate_simple(1, &n, nullptr), H5Sclose);
-    const bool good =
-        H5Sselect_hyperslab(space, H5S_SELECT_SET, &n_written, nullptr, &n,
-                            nullptr) >= 0 &&
-        H5Dwrite(set, H5T_NATIVE_UCHAR, piece, space, H5P_DEFAULT, data) >= 0;
-    n_written += n;
-    return good;
-  }
-
-private:
-  hid_t create(const hid_t file, const std::string &name) const
-  {
-    H5Pset_create_intermediate_group(links, 1);
-    H5Pset_obj_track_times(properties, false);
-    H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
-    return H5Dcreate2(file, name.c_str(), H5T_NATIVE_UCHAR, space, links,
-                      properties, H5P_DEFAULT);
-  }
-  const Hdf5Handle space, links, properties, set;
-  hsize_t n_written = 0;
-};
-
-bool write_bytes(const hid_t file, const std::string &name, const void *data,
-                 const std::size_t n_bytes)
-{
-  return ByteSet(file, name, n_bytes).append(data, n_bytes);
+  const std::string name = file.filename().string();
+  return name.substr(0, name.find('.'));
 }
 
-/** Of what ranks send [bytes]. */
-constexpr std::size_t piece_size = std::size_t(1) << 22;
-
-void send(const void *const data, const std::size_t n_bytes,
-          MPI_Comm communicator)
+bool starts_with(const std::string &text, const std::string &start)
 {
-  const char *const begin = static_cast<const char *>(data);
-  for (std::size_t i = 0; i < n_bytes; i += piece_size)
-    MPI_Send(begin + i, std::min(piece_size, n_bytes - i), MPI_CHAR, 0, 0,
-             communicator);
+  return text.compare(0, start.size(), start) == 0;
 }
 
-/** Calls @p take(piece, length) for what @p source sends. */
-template <typename Take>
-void receive(const std::size_t n_bytes, const int source, MPI_Comm communicator,
-             std::vector<char> &piece, const Take &take)
+/** Files of checkpoints, first and further ones, in no order. */
+std::vector<fs::path> all_files(const std::string &folder)
 {
-  for (std::size_t i = 0; i < n_bytes; i += piece_size)
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
   {
-    const std::size_t n = std::min(piece_size, n_bytes - i);
-    piece.resize(piece_size);
-    MPI_Recv(piece.data(), n, MPI_CHAR, source, 0, communicator,
-             MPI_STATUS_IGNORE);
-    take(piece.data(), n);
+    const fs::path path = entry->path();
+    if (path.extension() == ending &&
+        (starts_with(series_of(path), prefix) || series_of(path) == failed))
+      files.push_back(path);
   }
-}
-
-/** What ranks send before each array: how long its line is; after the last one
-    whether all went well. */
-constexpr unsigned long all_sent = 0, gone_wrong = ~0ul;
-
-void send_length(const unsigned long length, MPI_Comm communicator)
-{
-  MPI_Send(&length, 1, MPI_UNSIGNED_LONG, 0, 0, communicator);
-}
-
-/** With the checksum, and marked as this rank's own where all ranks should have
-    the same and rank 0 has another. */
-StateLine finished_line(StateLine line, const void *const data,
-                        const std::vector<StateLine> &of_first,
-                        const std::size_t number)
-{
-  line.hash = sha256(data, line.n_bytes());
-  if (number >= of_first.size() || of_first[number].name != line.name)
-    throw IOError("the ranks do not save the same arrays: \"" + line.name +
-                  "\"");
-  if (line.share == static_cast<char>(StateShare::same) &&
-      line.hash != of_first[number].hash)
-    line.share = static_cast<char>(StateShare::own);
-  return line;
-}
-
-/** What a rank other than 0 does of write(): each line of its part of the
-   index, and the array. */
-void send_arrays(const CheckpointFolder::Visit &visit,
-                 const std::vector<StateLine> &of_first, const int rank,
-                 MPI_Comm communicator)
-{
-  std::size_t number = 0;
-  StateSaver saver(
-      [&](const StateLine &shown, const void *const data)
-      {
-        const StateLine line = finished_line(shown, data, of_first, number++);
-        const std::string text = text_of(rank, line);
-        send_length(text.size(), communicator);
-        send(text.data(), text.size(), communicator);
-        if (is_stored(rank, line))
-          send(data, line.n_bytes(), communicator);
-      });
-  unsigned long end = gone_wrong;
-  try
-  {
-    visit(saver);
-    if (number == of_first.size())
-      end = all_sent;
-  }
-  catch (const std::exception &)
-  {
-    // Rank 0 waits, and tells all.
-  }
-  send_length(end, communicator);
-}
-
-/** Write the arrays of rank @p r as they arrive, and add its lines to
-    @p index. @return whether there was no trouble; the rank is heard to the
-    end even then. */
-bool receive_arrays(const int r, const hid_t h5, std::string &index,
-                    std::vector<char> &piece, MPI_Comm communicator)
-{
-  bool good = true;
-  for (std::size_t number = 0;; ++number)
-  {
-    unsigned long length = 0;
-    MPI_Recv(&length, 1, MPI_UNSIGNED_LONG, r, 0, communicator,
-             MPI_STATUS_IGNORE);
-    if (length == all_sent || length == gone_wrong)
-      return good && length == all_sent;
-    std::string text;
-    receive(length, r, communicator, piece,
-            [&](const char *const data, const std::size_t n)
-            { text.append(data, n); });
-    index += text;
-    const StateLine line = line_of(text).second;
-    if (!is_stored(r, line))
-      continue;
-    ByteSet set(h5, dataset_name(r, number), line.n_bytes());
-    receive(line.n_bytes(), r, communicator, piece,
-            [&](const char *const data, const std::size_t n)
-            { good = good && set.append(data, n); });
-  }
-}
-
-/** Of rank 0, to all: names and checksums. Collective. */
-void tell_lines(std::vector<StateLine> &lines, const int rank,
-                MPI_Comm communicator)
-{
-  std::string text;
-  for (const StateLine &line : lines)
-    text += text_of(0, line);
-  unsigned long length = text.size();
-  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, communicator);
-  text.resize(length);
-  MPI_Bcast(&text[0], length, MPI_CHAR, 0, communicator);
-  std::istringstream stream(text);
-  for (std::string line; rank != 0 && std::getline(stream, line);)
-    lines.push_back(line_of(line).second);
+  return files;
 }
 
 void flush_to_disk(const std::string &file, const std::string &name)
@@ -208,11 +64,64 @@ void flush_to_disk(const std::string &file, const std::string &name)
   if (!good)
     throw IOError("cannot write \"" + name + "\": " + std::strerror(errno));
 }
+
+std::size_t size_of(const std::string &file)
+{
+  std::error_code error;
+  const std::size_t size = fs::file_size(file, error);
+  return error ? 0 : size;
+}
+
+/** A file's arrays on their way to the disk. */
+struct Draft
+{
+  Hdf5Writer h5;
+  std::string temporary, file; // names
+  bool good = true;
+  std::string index, parts; // texts
+
+  Draft(const std::string &temporary, const std::string &file)
+      : h5(temporary, file), temporary(temporary), file(file)
+  {
+  }
+  /** @return its digest. IOError. */
+  std::string finish(const CheckpointHeader &header)
+  {
+    const std::string head = text_of(header),
+                      hash = sha256(head + index + parts + header.parameters);
+    for (const auto &[what, text] :
+         {std::pair<std::string, std::string>{"header", head},
+          {"parameters", header.parameters},
+          {"index", index},
+          {"parts", parts},
+          {"sha256", hash}})
+      good = good &&
+             checkpoint_arrays::write_bytes(h5, what, text.data(), text.size());
+    h5.close();
+    if (!good)
+      throw IOError("cannot write \"" + file +
+                    "\": HDF5 could not lay it out, or a rank could not save "
+                    "its state");
+    const std::string digest = append_trailer(temporary, file);
+    flush_to_disk(temporary, file);
+    return digest;
+  }
+};
 } // namespace
 
+struct CheckpointFolder::FileEnd
+{
+  unsigned long n_bytes = 0; // 0: wrote no file
+  int first = 0, n = 0;      // ranks in it
+  char hash[65] = {};
+  char problem[500] = {}; // empty: none
+};
+
 CheckpointFolder::CheckpointFolder(const std::string &folder,
-                                   MPI_Comm communicator)
-    : folder(folder), communicator(communicator)
+                                   MPI_Comm communicator,
+                                   const int ranks_per_file)
+    : folder(folder), communicator(communicator),
+      group(communicator, ranks_per_file)
 {
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);
@@ -229,116 +138,186 @@ void CheckpointFolder::throw_together(const std::string &problem) const
                                   : problem);
 }
 
+std::vector<CheckpointFolder::FileEnd>
+CheckpointFolder::gather(const FileEnd &own) const
+{
+  std::vector<FileEnd> ends(rank == 0 ? n_ranks : 0);
+  MPI_Gather(&own, sizeof(own), MPI_BYTE, ends.data(), sizeof(own), MPI_BYTE, 0,
+             communicator);
+  return ends;
+}
+
 void CheckpointFolder::clear()
 {
   if (rank != 0)
     return;
   std::error_code ignored;
-  for (const std::string &file : list(folder))
+  for (const fs::path &file : all_files(folder))
     fs::remove(file, ignored);
-  fs::remove(folder + "/failed" + ending, ignored);
 }
 
-bool CheckpointFolder::write_arrays(const hid_t h5, const Visit &visit,
-                                    std::string &index) const
+void CheckpointFolder::remove_old() const
 {
-  bool good = true;
-  std::vector<StateLine> lines;
-  StateSaver saver(
-      [&](StateLine line, const void *const data)
-      {
-        line.hash = sha256(data, line.n_bytes());
-        good = good && write_bytes(h5, dataset_name(0, lines.size()), data,
-                                   line.n_bytes());
-        index += text_of(0, line);
-        lines.push_back(std::move(line));
-      });
-  visit(saver);
-  tell_lines(lines, rank, communicator);
-  // All ranks are heard to the end, even when the disk is full.
-  std::vector<char> piece;
-  for (int r = 1; r < n_ranks; ++r)
-    good = receive_arrays(r, h5, index, piece, communicator) && good;
-  return good;
+  std::error_code ignored;
+  std::vector<std::string> files = list(folder), stay{failed};
+  // First files first: what is left of a checkpoint is then none.
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (i < 2)
+      stay.push_back(series_of(files[i]));
+    else
+      fs::remove(files[i], ignored);
+  for (const fs::path &file : all_files(folder))
+    if (std::find(stay.begin(), stay.end(), series_of(file)) == stay.end())
+      fs::remove(file, ignored);
 }
 
 std::size_t
-CheckpointFolder::write_file(const CheckpointHeader &header, const Visit &visit,
-                             const std::string &name,
-                             const std::function<void()> &begin) const
+CheckpointFolder::write_first_file(const CheckpointHeader &header,
+                                   const Visit &visit, const std::string &file,
+                                   const std::function<void()> &begin) const
 {
-  std::ostringstream number;
-  number << prefix << std::setw(10) << std::setfill('0') << header.step;
-  const std::string file =
-      folder + "/" + (name.empty() ? number.str() : name) + ending;
+  std::size_t n_bytes = 0;
   write_atomically(
       file,
       [&](const std::string &temporary)
       {
         const Hdf5Quiet quiet;
-        Hdf5Writer h5(temporary, file);
+        Draft draft(temporary, file);
         begin();
-        std::string index;
-        bool good = write_arrays(h5, visit, index);
-        const std::string head = text_of(header),
-                          hash = sha256(head + index + header.parameters);
-        for (const auto &[what, text] :
-             {std::pair<std::string, std::string>{"header", head},
-              {"parameters", header.parameters},
-              {"index", index},
-              {"sha256", hash}})
-          good = good && write_bytes(h5, what, text.data(), text.size());
-        h5.close();
-        if (!good)
-          throw IOError("cannot write \"" + file +
-                        "\": HDF5 could not lay it out, or a rank could not "
-                        "save its state");
-        append_trailer(temporary, file);
-        flush_to_disk(temporary, file);
+        std::vector<StateLine> lines;
+        draft.good =
+            checkpoint_arrays::write_first(draft.h5, visit, lines, draft.index);
+        checkpoint_arrays::tell_lines(lines, communicator);
+        // All ranks are heard to the end, even when the disk is full.
+        draft.good =
+            checkpoint_arrays::receive_others(draft.h5, group, draft.index) &&
+            draft.good;
+        std::string problem;
+        for (const FileEnd &end : gather(FileEnd()))
+        {
+          if (problem.empty())
+            problem = end.problem;
+          n_bytes += end.n_bytes;
+          if (end.n_bytes > 0)
+            draft.parts += text_of(Part{end.first, end.n, end.hash});
+        }
+        if (!problem.empty())
+          throw IOError(problem);
+        draft.finish(header);
       });
-  std::error_code ignored;
-  return fs::file_size(file, ignored);
+  return n_bytes + size_of(file);
+}
+
+CheckpointFolder::FileEnd
+CheckpointFolder::write_part(const CheckpointHeader &header, const Visit &visit,
+                             const std::vector<StateLine> &of_first,
+                             const std::string &file) const
+{
+  FileEnd end;
+  bool has_begun = false;
+  const auto tell = [&](int is_there)
+  {
+    has_begun = true;
+    MPI_Bcast(&is_there, 1, MPI_INT, 0, group.communicator);
+  };
+  try
+  {
+    std::string hash;
+    write_atomically(file,
+                     [&](const std::string &temporary)
+                     {
+                       const Hdf5Quiet quiet;
+                       Draft draft(temporary, file);
+                       tell(1);
+                       draft.good = checkpoint_arrays::write_own(
+                           draft.h5, visit, of_first, rank, draft.index);
+                       draft.good = checkpoint_arrays::receive_others(
+                                        draft.h5, group, draft.index) &&
+                                    draft.good;
+                       hash = draft.finish(header);
+                     });
+    end.n_bytes = size_of(file);
+    end.first = rank;
+    end.n = group.n_ranks;
+    std::snprintf(end.hash, sizeof(end.hash), "%s", hash.c_str());
+  }
+  catch (const IOError &e)
+  {
+    std::snprintf(end.problem, sizeof(end.problem), "%s", e.what());
+    if (!has_begun)
+      tell(0);
+  }
+  return end;
+}
+
+void CheckpointFolder::write_other(const CheckpointHeader &header,
+                                   const Visit &visit,
+                                   const std::string &file) const
+{
+  throw_together("");
+  std::vector<StateLine> of_first;
+  checkpoint_arrays::tell_lines(of_first, communicator);
+  const std::string own = part_name(file, group.first());
+  FileEnd end;
+  if (group.writes())
+    end = write_part(header, visit, of_first, own);
+  else
+  {
+    int is_there = 1;
+    if (group.number > 0)
+      MPI_Bcast(&is_there, 1, MPI_INT, 0, group.communicator);
+    if (is_there)
+      checkpoint_arrays::send_own(visit, of_first, rank, group);
+  }
+  gather(end);
+  try
+  {
+    throw_together("");
+  }
+  catch (const IOError &)
+  {
+    std::error_code ignored;
+    if (end.n_bytes > 0)
+      fs::remove(own, ignored);
+    throw;
+  }
 }
 
 std::size_t CheckpointFolder::write(const CheckpointHeader &header,
                                     const Visit &visit,
                                     const std::string &name) const
 {
+  std::ostringstream number;
+  number << prefix << std::setw(10) << std::setfill('0') << header.step;
+  const std::string file =
+      folder + "/" + (name.empty() ? number.str() : name) + ending;
   // Before anybody sends: all hear of it, and nobody waits.
   std::string problem = trouble();
   throw_together(problem);
-  std::size_t n_bytes = 0;
   if (rank != 0)
   {
-    throw_together("");
-    std::vector<StateLine> of_first;
-    tell_lines(of_first, rank, communicator);
-    send_arrays(visit, of_first, rank, communicator);
+    write_other(header, visit, file);
+    return 0;
   }
-  else
+  std::size_t n_bytes = 0;
+  bool has_begun = false;
+  try
   {
-    bool has_begun = false;
-    try
-    {
-      n_bytes = write_file(header, visit, name,
-                           [&]()
-                           {
-                             has_begun = true;
-                             throw_together("");
-                           });
-      std::error_code ignored;
-      const std::vector<std::string> files = list(folder);
-      for (std::size_t i = 2; i < files.size(); ++i)
-        fs::remove(files[i], ignored);
-    }
-    catch (const IOError &e)
-    {
-      // Why, where the folder went away within the write.
-      problem = trouble().empty() ? e.what() : trouble();
-    }
-    if (!has_begun)
-      throw_together(problem);
+    n_bytes = write_first_file(header, visit, file,
+                               [&]()
+                               {
+                                 has_begun = true;
+                                 throw_together("");
+                               });
+    remove_old();
   }
+  catch (const IOError &e)
+  {
+    // Why, where the folder went away within the write.
+    problem = trouble().empty() ? e.what() : trouble();
+  }
+  if (!has_begun)
+    throw_together(problem);
   throw_together(problem);
   return n_bytes;
 }
@@ -346,15 +325,9 @@ std::size_t CheckpointFolder::write(const CheckpointHeader &header,
 std::vector<std::string> CheckpointFolder::list(const std::string &folder)
 {
   std::vector<std::string> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-  {
-    const fs::path path = entry->path();
-    if (path.filename().string().compare(0, prefix.size(), prefix) == 0 &&
-        path.extension() == ending)
+  for (const fs::path &path : all_files(folder))
+    if (path.stem() == series_of(path) && series_of(path) != failed)
       files.push_back(path.string());
-  }
   std::sort(files.rbegin(), files.rend()); // numbers have leading zeros
   return files;
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <sstream>
 
@@ -29,7 +30,8 @@ const std::vector<std::string> free_entries = {
     "Checkpoint interval",
     "Checkpoint interval in steps",
     "Checkpoint interval of wall time",
-    "Checkpoint at the end"};
+    "Checkpoint at the end",
+    "Ranks per checkpoint file"};
 
 void check_overrides(const std::vector<std::string> &overrides)
 {
@@ -150,7 +152,32 @@ bool belongs(const CheckpointHeader &header, const std::string &file,
   return false;
 }
 
-ResumePoint find_on_one_rank(const std::string &folder)
+/** The work of the others: look at their share of each checkpoint that rank 0
+    names, until it names none. Rank 0 says what was wrong. */
+void help_to_verify(MPI_Comm communicator)
+{
+  for (std::string file;;)
+  {
+    broadcast(file, communicator);
+    if (file.empty())
+      return;
+    try
+    {
+      CheckpointFile::verify(file, communicator);
+    }
+    catch (const IOError &)
+    {
+    }
+    catch (const InputError &)
+    {
+    }
+  }
+}
+
+/** The work of rank 0. @p verify: CheckpointFile::verify of all ranks. */
+ResumePoint find_on_first_rank(
+    const std::string &folder,
+    const std::function<CheckpointHeader(const std::string &)> &verify)
 {
   if (!std::filesystem::is_directory(folder))
     throw InputError("", "no results folder \"" + folder + "\"");
@@ -172,7 +199,7 @@ ResumePoint find_on_one_rank(const std::string &folder)
     CheckpointHeader header;
     try
     {
-      header = CheckpointFile::verify(file);
+      header = verify(file);
     }
     catch (const IOError &e)
     {
@@ -224,10 +251,15 @@ ResumePoint find_resume_point(const std::string &folder,
   MPI_Comm_rank(communicator, &rank);
   ResumePoint point;
   std::string input_problem, file_problem;
+  const auto verify = [communicator](std::string file)
+  {
+    broadcast(file, communicator);
+    return CheckpointFile::verify(file, communicator);
+  };
   if (rank == 0)
     try
     {
-      point = find_on_one_rank(folder);
+      point = find_on_first_rank(folder, verify);
     }
     catch (const InputError &e)
     {
@@ -237,6 +269,10 @@ ResumePoint find_resume_point(const std::string &folder,
     {
       file_problem = e.what();
     }
+  else
+    help_to_verify(communicator);
+  if (std::string none; rank == 0)
+    broadcast(none, communicator);
   for (std::string *const text :
        {&input_problem, &file_problem, &point.checkpoint, &point.scene})
     broadcast(*text, communicator);

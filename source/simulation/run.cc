@@ -59,7 +59,8 @@ Run::Run(Scene &scene, const std::string &folder, const bool quiet,
               step_limits(scene.settings), timers, communicator),
       balance(scene, communicator), forces(scene), report(scene, balance, log),
       control_shares(scene.bodies.size()), files(folder, communicator),
-      checkpoints(folder + "/checkpoint", communicator),
+      checkpoints(folder + "/checkpoint", communicator,
+                  scene.settings.ranks_per_checkpoint_file),
       schedule(scene.settings, communicator),
       step_shares(scene.bodies, scene.couplings, step_limits(scene.settings))
 {

@@ -86,6 +86,8 @@ void Scene::read_settings()
   settings.checkpoint_steps = prm.get_integer("Checkpoint interval in steps");
   settings.checkpoint_wall_time =
       get_quantity(prm, "Checkpoint interval of wall time");
+  settings.ranks_per_checkpoint_file =
+      prm.get_integer("Ranks per checkpoint file");
   settings.checkpoint_at_end = prm.get_bool("Checkpoint at the end");
   if (names_of("bodies").empty())
     throw InputError("List of bodies",

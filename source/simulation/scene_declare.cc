@@ -55,6 +55,11 @@ void declare_top(Parameters &prm)
       "Leave a checkpoint before the last step, which is cut to "
       "meet the end time: \"sabot resume DIR --set 'End time=...'\" "
       "then goes on as if the run had never ended.");
+  prm.declare_entry(
+      "Ranks per checkpoint file", "16", integer(1),
+      "As many ranks save what they have in one file, which one of them "
+      "writes; more ranks than that leave several files per checkpoint, which "
+      "are written at the same time.");
   prm.declare_entry("List of bodies", "", names,
                     "Names of the bodies, in order.");
   prm.declare_entry("List of loads", "", names,

@@ -36,7 +36,8 @@ struct RunSettings
   double checkpoint_interval, checkpoint_wall_time; // [s]
   unsigned int checkpoint_steps;
   unsigned int most_substeps; // of a body within one step
-  bool checkpoint_at_end;     // from which a later end time goes on
+  unsigned int ranks_per_checkpoint_file;
+  bool checkpoint_at_end; // from which a later end time goes on
 };
 
 /**
