@@ -155,7 +155,8 @@ void Contact::press(const std::size_t number, const double dt)
   point.is_owned = group.slot < halo.n_owned();
   points.add(point);
   penetration_over_spacing =
-      std::max(penetration_over_spacing, point.depth / group.spacing);
+      std::max(penetration_over_spacing,
+               std::min(point.depth, place.seen) / group.spacing);
 }
 
 void Contact::press_between_nodes(const Group &group,

@@ -12,6 +12,10 @@ constexpr double same_side = 0.5; // least cosine between normals
 // Sideways, in spacings, to which a face reaches beyond its rim: equal
 // cross-sections that meet bulge by unequal fractions of this.
 constexpr double rim = 0.1;
+// By how much, in spacings, a place is less deep below the faces that are there
+// than below the surface continued from the node's foot: up to where the latter
+// is believed, and from where on it is not.
+constexpr double alike = 0.05, unlike = 0.15;
 
 /** The common normal with a node's own, which has no faces to tell how sure it
     is if @p is_particle: it counts like those of the faces, but they decide
@@ -265,16 +269,16 @@ PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
                                        std::ptrdiff_t &face,
                                        FaceProjection &standing) const
 {
-  PressingPlace place =
-      find_pressing_place(halo, corners, normals,
-                          {node.slot, -standing.gap, standing.normal,
-                           std::size_t(face), standing.weight});
+  const NodeAbove above = {node.slot, -standing.gap, standing.normal,
+                           std::size_t(face), standing.weight};
+  PressingPlace place = find_pressing_place(halo, corners, normals, above);
   if (place.shares.empty())
     return place;
   // Where the place stands, along the normal of both surfaces there.
   const Vec p = halo.position[node.slot] + place.way;
   SmoothNormal its = normals.of_face(face, standing.weight);
   its.direction = place.normal;
+  double depth = 0.;
   for (int repeat = 0; repeat < 2; ++repeat)
   {
     place.normal = common_normal(its, place.own);
@@ -286,7 +290,26 @@ PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
       break;
     face = below;
     standing.weight = found.weight;
+    depth = found.ahead + bulge_below(node, below, found.weight) + place.bulge;
   }
+  // The other surface was continued from below the node: on crumpled metal and
+  // beyond rims it is not where that leads.
+  const double missing = (place.depth - depth) / node.spacing,
+               trust =
+                   std::clamp((unlike - missing) / (unlike - alike), 0., 1.);
+  if (trust < 1.)
+  {
+    const Vec normal = place.normal;
+    place = find_pressing_place(halo, corners, normals, above, trust);
+    if (place.shares.empty())
+    {
+      face = above.face;
+      standing.weight = above.foot;
+      return place;
+    }
+    place.normal = normal;
+  }
+  place.seen = std::min(place.depth, depth);
   standing.normal = standing.face_normal = place.normal;
   return place;
 }

@@ -101,7 +101,7 @@ public:
                  q);
     return low[0] < high[0] && low[1] < high[1];
   }
-  /** Calls @p action(weights of corners, way, part of the face, d > 0). */
+  /** Calls @p action(weights of corners, way, part of the face, d > 0, b). */
   template <typename Action>
   void for_points(const Action &action) const
   {
@@ -120,13 +120,13 @@ public:
           weight[(first + a) & 3] = w[a];
           way += w[a] * x[a];
         }
-        const double depth = above.node.depth - dot(above.n, way) -
-                             0.5 * dot(way, above.turning(way)) +
-                             above.normals.bulge(face, weight);
+        const double bulge = above.normals.bulge(face, weight),
+                     depth = above.node.depth - dot(above.n, way) -
+                             0.5 * dot(way, above.turning(way)) + bulge;
         if (depth > 0.)
           action(weight, way,
                  w[0] * gauss_weight[i] * gauss_weight[j] * width * height,
-                 depth);
+                 depth, bulge);
       }
   }
   std::size_t number() const { return face; }
@@ -151,11 +151,14 @@ private:
 struct Pressing
 {
   double force = 0., energy = 0.; // over k and k/2
+  double bulge = 0.;
   Vec way = {};
   SmoothNormal normal;
 
-  void add(const double part, const double depth, const Vec from_node)
+  void add(const double part, const double depth, const Vec from_node,
+           const double its_bulge)
   {
+    bulge += part * depth * its_bulge;
     force += part * depth;
     energy += part * depth * depth;
     way += (part * depth) * from_node;
@@ -191,10 +194,10 @@ void press_with(BentFace &face, const std::array<std::size_t, 4> &corners,
   double here = 0.;
   face.for_points(
       [&](const std::array<double, 4> &weight, const Vec way,
-          const double part_of_face, const double depth)
+          const double part_of_face, const double depth, const double bulge)
       {
         const double here_part = part * part_of_face * face.size();
-        all.add(here_part, depth, way);
+        all.add(here_part, depth, way, bulge);
         here += here_part * depth;
         for (int a = 0; a < 4; ++a)
           sum[a] += here_part * depth * weight[a];
@@ -212,7 +215,8 @@ void press_with(BentFace &face, const std::array<std::size_t, 4> &corners,
 PressingPlace
 find_pressing_place(const NodeHalo &halo,
                     const std::vector<std::array<std::size_t, 4>> &corners,
-                    const SurfaceNormals &normals, const NodeAbove &node)
+                    const SurfaceNormals &normals, const NodeAbove &node,
+                    const double trust)
 {
   PressingPlace place;
   place.depth = node.depth;
@@ -237,7 +241,8 @@ find_pressing_place(const NodeHalo &halo,
   double around_part = 0.;
   for (int a = 0; a < 4; ++a)
     around_part += node.foot[a] * normals.roundness(node.face, a);
-  around_part *= std::min(1., (deep - node.depth / bulge) / (deep - shallow));
+  around_part *=
+      trust * std::min(1., (deep - node.depth / bulge) / (deep - shallow));
   if (!(around_part > 0.))
     return place;
   Pressing all;
@@ -251,13 +256,14 @@ find_pressing_place(const NodeHalo &halo,
   }
   if (node.depth > 0. && around_part < 1.)
   {
-    all.add(1. - around_part, node.depth, Vec{});
+    all.add(1. - around_part, node.depth, Vec{}, 0.);
     all.add_normal((1. - around_part) * node.depth, normals.of_node(node.slot));
     place.shares.push_back({node.slot, (1. - around_part) * node.depth});
   }
   for (PressingPlace::Share &share : place.shares)
     share.weight *= 1. / all.force;
   place.way = (1. / all.force) * all.way;
+  place.bulge = all.bulge / all.force;
   place.depth = all.energy / all.force;
   place.fade = all.force / place.depth;
   place.own = all.normal;

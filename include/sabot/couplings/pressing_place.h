@@ -21,12 +21,15 @@ struct PressingPlace
     double weight;
   };
   double depth = 0.; // that gives force and energy of the spring [m]
-  double fade = 1.;  // part of the spring that acts
+  /** Below the faces that are there [m]; of a node by itself more than any. */
+  double seen = 1e300;
+  double fade = 1.; // part of the spring that acts
   /** Sum 1; none: the node is the place. */
   std::vector<Share> shares;
-  Vec way = {};     // from the node to the place [m]
-  SmoothNormal own; // of the own surface at the place
-  Vec normal = {};  // of what is pressed on, there, unit
+  Vec way = {};      // from the node to the place [m]
+  double bulge = 0.; // of the own surface above its facets there [m]
+  SmoothNormal own;  // of the own surface at the place
+  Vec normal = {};   // of what is pressed on, there, unit
 
   /** Of all of the spring [m]. */
   double acting_depth() const { return fade * depth; }
@@ -60,12 +63,13 @@ struct NodeAbove
  * the node lie in the rectangle around the ellipse where d > 0 by the second
  * order at the node. A node that is deeper than four times what the faces
  * around it bulge, as on planes, presses with itself; from half of that on it
- * goes over.
+ * goes over. @p trust: part of what is around the node that counts at most.
  */
 PressingPlace
 find_pressing_place(const NodeHalo &halo,
                     const std::vector<std::array<std::size_t, 4>> &corners,
-                    const SurfaceNormals &normals, const NodeAbove &node);
+                    const SurfaceNormals &normals, const NodeAbove &node,
+                    const double trust = 1.);
 } // namespace sabot
 
 #endif
