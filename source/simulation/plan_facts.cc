@@ -24,6 +24,7 @@ std::optional<double> find_yield_stress(const Material &material)
     pointers.push_back(&state);
   double strain[6] = {0., 0., 0., 1e-4, 0., 0.}, stress[6] = {};
   double jacobian = 1., extra = 0., factor = 1., work = 0.;
+  double gradient[9] = {1., 0., 0., 0., 1., 0., 0., 0., 1.};
   MaterialBatch point;
   point.n = 1;
   point.dt = 1e-7;
@@ -37,10 +38,14 @@ std::optional<double> find_yield_stress(const Material &material)
   point.extra_square = &extra;
   point.return_factor = &factor;
   point.plastic_work = &work;
+  point.viscous_pressure = &extra;
+  for (int c = 0; c < 9; ++c)
+    point.deformation_gradient[c] = &gradient[c];
   constexpr int n_steps = 5000; // to a shear strain of one half
   for (int step = 0; step < n_steps; ++step)
   {
     factor = 1.;
+    gradient[1] += 2. * strain[3];
     material.update(point);
     if (factor < 1.)
       return std::sqrt(3.) * std::abs(stress[3]);

@@ -1333,6 +1333,16 @@ class Scenes(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertIn(expected, done.stdout)
 
+    def test_a_law_of_finite_elastic_strain_is_planned_and_run(self):
+        law = ("--set", "Materials/metal/Model=Neo-Hookean")
+        for scene in (BAR, fem_bar()):
+            self.assertEqual(sabot("plan", scene, *law).returncode, 0)
+            out = folder("neo-hookean")
+            done = sabot("run", scene, "-o", out, "--quiet", *law)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertAlmostEqual(
+                result(out)["quantities"]["speed"]["value"], 10., 9)
+
     def test_a_study_runs_resumes_and_reports(self):
         study = os.path.join(SOURCE, "tests/scenes/study.prm")
         out = folder("study")
