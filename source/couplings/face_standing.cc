@@ -278,7 +278,7 @@ PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
   const Vec p = halo.position[node.slot] + place.way;
   SmoothNormal its = normals.of_face(face, standing.weight);
   its.direction = place.normal;
-  double depth = 0.;
+  double depth = -1e300; // beyond the edge of the other surface
   for (int repeat = 0; repeat < 2; ++repeat)
   {
     place.normal = common_normal(its, place.own);

@@ -273,7 +273,7 @@ void SurfaceNormals::fit_curvature(const std::size_t slot, const Vec like,
   const Vec q = cross(r, p);
   Mat equations = Mat::zero();
   Vec right = {};
-  double all = 0.;
+  double all = 0., flat = 0.;
   for_edges(
       slot, like,
       [&](const double part, const Vec *const edge, const unsigned int axes)
@@ -290,6 +290,7 @@ void SurfaceNormals::fit_curvature(const std::size_t slot, const Vec like,
           add_outer(equations, weight * row, row);
           right += (weight * height) * row;
           all += weight * height * height;
+          flat += weight * square;
         }
       });
   const double size = equations(0, 0) + equations(1, 1) + equations(2, 2);
@@ -300,9 +301,9 @@ void SurfaceNormals::fit_curvature(const std::size_t slot, const Vec like,
   }
   const Vec k = inverse(equations) * right;
   // What the parabola does not explain: nothing of a ball, half of crumpled
-  // metal.
-  constexpr double round = 0.1, crumpled = 0.3;
-  const double rest = all > 0. ? 1. - dot(k, right) / all : 0.;
+  // metal. Angles of less than 0.01 are a plane's, whose noise says nothing.
+  constexpr double round = 0.1, crumpled = 0.3, straight = 1e-4;
+  const double rest = (all - dot(k, right)) / (all + straight * flat);
   corner.part *= std::clamp((crumpled - rest) / (crumpled - round), 0., 1.);
   add_outer(corner.curvature, k[0] * p + k[1] * q, p);
   add_outer(corner.curvature, k[1] * p + k[2] * q, q);

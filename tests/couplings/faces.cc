@@ -251,4 +251,72 @@ TEST(Contact, a_vertex_on_a_vertex_keeps_the_symmetry)
       }
     }
 }
+
+/** An elastic ball of 4 mm falls at 50 m/s on the edges of a gap of 6 mm
+   between two blocks. */
+class BallOnGap
+{
+public:
+  BallOnGap(const double cell)
+  {
+    for (const int side : {-1, 1})
+      add(side < 0 ? "left" : "right",
+          brick({{6 * h, 7 * h, 4 * h}}, {{side * 6. * h, 0., -2. * h}}, h),
+          0.);
+    add("ball", make_sphere(radius, {{0., 0., touching() + 0.6 * h}}, cell),
+        -50.);
+    std::vector<ContactPair> pairs;
+    for (const int block : {0, 1})
+    {
+      pairs.push_back({block, 2, false});
+      pairs.push_back({2, block, false});
+    }
+    world.couplings.push_back(std::make_unique<Contact>(
+        "contact", world.pointers(), pairs, ContactOptions(), MPI_COMM_WORLD));
+    world.distribute();
+    world.stepper.initialize();
+  }
+  static double touching() { return std::sqrt(radius * radius - 9. * h * h); }
+  auto velocity(const int body) const
+  {
+    return world.bodies[body]->measure().velocity;
+  }
+
+  World world;
+
+private:
+  static constexpr double radius = 4 * h;
+  void add(const char *const name, const HexMesh &mesh, const double velocity)
+  {
+    FemOptions options;
+    options.initial_velocity = {{0., 0., velocity}};
+    world.bodies.push_back(std::make_unique<FemBody>(name, world.bodies.size(),
+                                                     mesh, elastic(), options));
+  }
+};
+
+TEST(Contact, a_ball_on_a_gap_meets_its_edges_only_and_keeps_the_symmetry)
+{
+  for (const double cell : {h, 0.8 * h})
+  {
+    BallOnGap scene(cell);
+    World &world = scene.world;
+    while (!(std::abs(scene.velocity(0)[2]) > 1e-12))
+    {
+      ASSERT_LT(world.stepper.time(), 20e-6);
+      world.advance(0.9);
+    }
+    // What bulges into the gap presses on nothing.
+    EXPECT_NEAR(50. * world.stepper.time(), 0.6 * h, 0.3 * cell);
+    const double end = world.stepper.time() + 5e-6;
+    while (world.stepper.time() < end)
+      world.advance(0.9);
+    const auto left = scene.velocity(0), right = scene.velocity(1),
+               ball = scene.velocity(2);
+    EXPECT_GT(right[0], 0.1);
+    EXPECT_NEAR(left[0] + right[0], 0., 50. * 1e-9);
+    EXPECT_NEAR(left[2] - right[2], 0., 50. * 1e-9);
+    EXPECT_NEAR(ball[0], 0., 50. * 1e-9);
+  }
+}
 } // namespace
