@@ -286,7 +286,12 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
   if (made != cells.end())
   {
     posture.turn.apply(made->second.mesh);
-    name_planes_of(path, made->second);
+    // A zone that finds itself has the faces that its host's entries list.
+    const auto own = std::find_if(
+        carvings.begin(), carvings.end(),
+        [&](const Carving &c) { return c.zone == name && c.finds_itself; });
+    name_planes_of(own == carvings.end() ? path : "Bodies/" + own->body,
+                   made->second);
     request.cells = std::move(made->second);
   }
   return counted(path,

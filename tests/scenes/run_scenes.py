@@ -438,6 +438,18 @@ class Scenes(unittest.TestCase):
                                delta=1e-9 * pull["impulse"][0])
         self.assertGreater(pull["force"][0], 0.8 * 300e6 * 25e-6)
         self.resumes_as(history, "growing-parted", 0.5 * r["steps"], scene)
+        # A plane names what the body's own name does, also for its particles.
+        for faces in ("-x, +y", "x = -4 mm, y = 2.5 mm"):
+            done = sabot("run", scene, "-o", folder("growing-planes"), "--quiet",
+                         "--set", "End time=4 us",
+                         "--set", "Bodies/block/Symmetry faces=" + faces.split(", ")[0],
+                         "--set", "Bodies/block/Clamped faces=" + faces.split(", ")[1])
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(WORK, "growing-planes/history.h5"), "rb") as file:
+                text = file.read()
+            if faces[0] == "-":
+                by_name = text
+        self.assertEqual(text, by_name)
         # Nor do cells at a tie turn, not even where the zone starts.
         tied = os.path.join(WORK, "growing-tied.prm")
         with open(tied, "w") as file:
