@@ -4,6 +4,7 @@
 #include "sabot/base/error.h"
 #include "sabot/output/file_names.h"
 #include "sabot/output/file_tools.h"
+#include "sabot/output/vtu_compressor.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -19,10 +20,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace sabot
@@ -117,6 +120,10 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
     points->SetPoint(i, &mesh.points[3 * i]);
   vtkNew<vtkCellArray> cells;
   const unsigned int n = mesh.nodes_per_cell;
+  // Half of the bytes to compress, where they hold the numbers of a rank.
+  if (mesh.connectivity.size() <
+      std::size_t(std::numeric_limits<std::int32_t>::max()))
+    cells->Use32BitStorage();
   for (std::size_t c = 0; c < mesh.connectivity.size() / n; ++c)
   {
     vtkIdType nodes[8];
@@ -153,8 +160,8 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
           vtkNew<vtkXMLUnstructuredGridWriter> writer;
           writer->SetFileName(temporary.c_str());
           writer->SetInputData(grid);
-          writer->SetCompressorTypeToZLib();
-          writer->SetCompressionLevel(1);
+          vtkNew<VtuCompressor> compressor;
+          writer->SetCompressor(compressor);
           writer->SetDataModeToAppended();
           writer->EncodeAppendedDataOff();
           // The name's ending is not .vtu yet; VTK would print a warning.

@@ -21,6 +21,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 namespace
@@ -87,6 +88,36 @@ TEST_F(WrittenOutput, hexahedra_are_read_back_by_vtk_to_the_last_bit)
   EXPECT_STREQ(s->GetComponentName(3), "XY");
   EXPECT_NE(read("fields/plate_000003.vtu").find("vtkZLibDataCompressor"),
             std::string::npos);
+}
+
+TEST_F(WrittenOutput, noise_is_stored_and_what_repeats_is_compressed)
+{
+  constexpr std::size_t n = 20000;
+  OutputMesh cloud;
+  cloud.nodes_per_cell = 1;
+  cloud.points.assign(3 * n, 0.);
+  std::vector<double> noise(n);
+  std::mt19937_64 random(5);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    cloud.connectivity.push_back(i);
+    noise[i] = std::uniform_real_distribution<double>(-1., 1.)(random);
+  }
+  cloud.point_fields.push_back({"velocity", "m/s", 1, noise});
+  VtuWriter(folder, MPI_COMM_WORLD).write_body("core", cloud, 0);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((folder + "/fields/core_000000.vtu").c_str());
+  reader->Update();
+  vtkDataArray *const v =
+      reader->GetOutput()->GetPointData()->GetArray("velocity");
+  ASSERT_NE(v, nullptr);
+  for (std::size_t i = 0; i < n; ++i)
+    ASSERT_EQ(v->GetComponent(i, 0), noise[i]);
+  // Points are zeros, connectivity counts up.
+  const double size = read("fields/core_000000.vtu").size(),
+               bytes_of_noise = n * sizeof(double);
+  EXPECT_GT(size, bytes_of_noise);
+  EXPECT_LT(size, bytes_of_noise + n * 4.);
 }
 
 TEST_F(WrittenOutput, particles_and_the_collection)

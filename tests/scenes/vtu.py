@@ -13,7 +13,7 @@ def read_vtu(path):
     body = body[body.index(b"_") + 1:]
     word = "<Q" if b'header_type="UInt64"' in head else "<I"
     size = struct.calcsize(word)
-    codes = {"Float64": "d", "Int64": "q", "UInt8": "B"}
+    codes = {"Float64": "d", "Int64": "q", "Int32": "i", "UInt8": "B"}
     arrays = {}
     for tag in re.findall("<DataArray ([^>]*)>", head.decode()):
         entries = dict(re.findall(r'(\w+)="([^"]*)"', tag))
