@@ -34,7 +34,7 @@ void Contact::initialize()
   search();
   halo.update();
   double worst = 0.;
-  for (const Group &group : groups)
+  for (Group &group : groups)
   {
     FaceProjection projection;
     ContactMemory memory;

@@ -42,6 +42,9 @@ Vec ContactPatch::gather(const NearFaces &node, const Vec held,
   Vec mean = {};
   for (std::size_t k = node.first_face; k < node.last_face; ++k)
   {
+    // Nothing of what is farther has a weight, and its images are farther yet.
+    if (faces.is_farther(faces.face_of_node[k], center, radius))
+      continue;
     const auto &corner = faces.corners[faces.face_of_node[k]];
     const Vec x[4] = {halo.position[corner[0]], halo.position[corner[1]],
                       halo.position[corner[2]], halo.position[corner[3]]};

@@ -67,6 +67,7 @@ void FaceStanding::clear()
   corners.clear();
   face_of_node.clear();
   shapes.clear();
+  version_of_shape.clear();
 }
 
 std::array<Vec, 4> FaceStanding::places(const std::size_t face) const
@@ -77,23 +78,33 @@ std::array<Vec, 4> FaceStanding::places(const std::size_t face) const
   return x;
 }
 
-const FaceStanding::Shape &FaceStanding::shape(const std::size_t face) const
+void FaceStanding::build_normals(
+    const std::vector<std::vector<SymmetryPlane>> &planes,
+    const double nearness, const std::vector<double> &reach)
 {
-  if (shapes.size() != corners.size())
-    shapes.assign(corners.size(), Shape());
-  Shape &shape = shapes[face];
-  if (shape.version != halo.version())
-  {
-    const std::array<Vec, 4> x = places(face);
-    shape = {halo.version(), FaceBall(x), normal_of(x)};
-  }
-  return shape;
+  normals.build(planes, nearness, reach);
+  shapes.resize(corners.size());
+  version_of_shape.assign(corners.size(), 0); // no halo has it
 }
 
-bool FaceStanding::looks(const Shape &face, const Side *const side)
+void FaceStanding::find_shape(const std::size_t face) const
 {
-  return side == nullptr ||
-         !(dot(face.normal, side->direction) < side->least_cosine);
+  const std::array<Vec, 4> x = places(face);
+  const FaceBall ball(x);
+  shapes[face] = {ball.center, normal_of(x)};
+  shapes[face].ball[3] = ball.radius;
+  version_of_shape[face] = halo.version();
+}
+
+void FaceStanding::keep_within(const NearFaces &node, const double reach) const
+{
+  kept.clear();
+  kept_for = node.slot;
+  kept_reach = reach;
+  const Vec p = halo.position[node.slot];
+  for (const std::uint32_t f : faces_of(node))
+    if (!is_farther(f, p, reach))
+      kept.push_back(f);
 }
 
 std::ptrdiff_t FaceStanding::nearest_center(const NearFaces &node,
@@ -102,11 +113,10 @@ std::ptrdiff_t FaceStanding::nearest_center(const NearFaces &node,
   const Vec p = halo.position[node.slot];
   std::ptrdiff_t nearest = -1;
   double least = 0.;
-  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  for (const std::size_t f : faces_of(node))
   {
-    const std::size_t f = face_of_node[k];
     const Shape &face = shape(f);
-    const double square = norm_square(p - face.ball.center);
+    const double square = norm_square(p - face.ball);
     if ((nearest < 0 || square < least) && looks(face, side))
     {
       nearest = f;
@@ -117,6 +127,7 @@ std::ptrdiff_t FaceStanding::nearest_center(const NearFaces &node,
 }
 
 std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
+                                     const std::ptrdiff_t first,
                                      FaceProjection &best,
                                      const Side *const side) const
 {
@@ -124,19 +135,15 @@ std::ptrdiff_t FaceStanding::closest(const NearFaces &node,
   const double touching = 1e-6 * node.spacing;
   const auto approach = [&](const std::size_t f, const FaceProjection &to)
   { return -dot(velocity_against(node, f, to), to.face_normal); };
-  // The face with the nearest center leaves few others to be looked at.
-  const std::ptrdiff_t first = nearest_center(node, side);
   if (first < 0)
     return -1;
   const FaceProjection on_first = project_on_face(p, places(first));
   // With a margin, so that faces with the same closest point stay in.
   const double bound = 1.001 * std::sqrt(on_first.distance_square) + touching;
   std::ptrdiff_t closest = -1;
-  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  for (const std::size_t f : faces_of(node))
   {
-    const std::size_t f = face_of_node[k];
-    const Shape &face = shape(f);
-    if (face.ball.is_farther(p, bound) || !looks(face, side))
+    if (is_farther(f, p, bound) || !looks(shape(f), side))
       continue;
     const FaceProjection projection =
         f == std::size_t(first) ? on_first : project_on_face(p, places(f));
@@ -168,12 +175,10 @@ SmoothNormal FaceStanding::normal_of_closest(const NearFaces &node,
   const double distance =
       std::sqrt(best.distance_square) * (1. + 1e-6) + 1e-9 * node.spacing;
   MeanNormal mean;
-  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  for (const std::size_t f : faces_within(node, distance))
   {
-    const std::size_t f = face_of_node[k];
-    const Shape &face = shape(f);
-    if (face.ball.is_farther(p, distance) ||
-        dot(face.normal, side.direction) < side.least_cosine)
+    if (is_farther(f, p, distance) ||
+        dot(shape(f).normal, side.direction) < side.least_cosine)
       continue;
     const FaceProjection projection = project_on_face(p, places(f));
     if (projection.distance_square <= distance * distance)
@@ -187,16 +192,15 @@ std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec p,
                                  const double reach, FaceHit &found,
                                  SmoothNormal &normal) const
 {
-  const double tie = 1e-9 * node.spacing;
+  const double tie = 1e-9 * node.spacing,
+               from_node = norm(p - halo.position[node.slot]);
   std::ptrdiff_t first = -1;
   MeanNormal mean;
-  for (std::size_t k = node.first_face; k < node.last_face; ++k)
+  for (const std::size_t f : faces_within(node, reach + from_node))
   {
-    const std::size_t f = face_of_node[k];
-    const Shape &face = shape(f);
     FaceHit here;
-    if (face.ball.is_farther(p, reach) ||
-        dot(face.normal, side.direction) < side.least_cosine ||
+    if (is_farther(f, p, reach) ||
+        dot(shape(f).normal, side.direction) < side.least_cosine ||
         !hit_face(p, n, places(f), here) ||
         std::abs(here.ahead) > std::abs(found.ahead) + tie)
       continue;
@@ -314,15 +318,19 @@ PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
   return place;
 }
 
-std::ptrdiff_t FaceStanding::try_hold(const NearFaces &node,
-                                      const SmoothNormal &own, const Side &side,
-                                      const bool may_be_deep,
-                                      FaceProjection &projection,
-                                      PressingPlace &place,
-                                      const double dt) const
+std::ptrdiff_t
+FaceStanding::try_hold(const NearFaces &node, const SmoothNormal &own,
+                       const Side &side, const Closest &of_all,
+                       const bool may_be_deep, FaceProjection &projection,
+                       PressingPlace &place, const double dt) const
 {
+  // The closest of all is closest of its side.
   FaceProjection held;
-  const std::ptrdiff_t nearest = closest(node, held, &side);
+  std::ptrdiff_t nearest = of_all.face;
+  if (looks(shape(of_all.face), &side))
+    held = of_all.projection;
+  else
+    nearest = closest(node, nearest_center(node, &side), held, &side);
   if (nearest < 0)
     return -1;
   std::ptrdiff_t f = stand(node, own, side, nearest, held);
@@ -360,44 +368,52 @@ std::ptrdiff_t FaceStanding::try_hold(const NearFaces &node,
   return f;
 }
 
-std::ptrdiff_t FaceStanding::holding(const NearFaces &node,
-                                     ContactMemory &memory,
+std::ptrdiff_t FaceStanding::holding(NearFaces &node, ContactMemory &memory,
                                      FaceProjection &projection,
                                      PressingPlace &place, double &nearest,
                                      const double dt) const
 {
-  FaceProjection any;
-  const std::ptrdiff_t of_all = closest(node, any, nullptr);
+  Closest of_all{-1, {}};
+  FaceProjection &any = of_all.projection;
+  // A close face leaves few others to be looked at.
+  of_all.face = closest(node,
+                        node.last_closest >= 0 ? node.last_closest
+                                               : nearest_center(node, nullptr),
+                        any, nullptr);
+  node.last_closest = of_all.face;
   nearest = std::sqrt(any.distance_square);
-  if (of_all < 0)
+  if (of_all.face < 0)
     return -1;
+  const double distance = nearest;
   // How far round surfaces may stand out on both sides.
   const double margin = normals.has_faces(node.slot) ? most_bulge : 0.;
   nearest = std::max(0., nearest - margin * node.spacing);
   double gap = any.gap;
   if (gap < margin * node.spacing)
-    gap -= bulge_below(node, of_all, any.weight);
+    gap -= bulge_below(node, of_all.face, any.weight);
   const bool was_inside = memory.depth > 0.,
              is_inside = gap<0., has_side = norm_square(memory.side)> 0.;
   std::ptrdiff_t f = -1;
   if (was_inside || gap < std::max(rim, margin) * node.spacing)
   {
+    keep_within(node, 3. * distance + 0.1 * node.spacing);
     SmoothNormal own = normals.of_node(node.slot);
     if (norm_square(own.direction) == 0.)
       own = node.own;
     const bool has_own = norm_square(own.direction) > 0.;
     if (has_side && (was_inside || !has_own))
-      f = try_hold(node, own, {memory.side, same_side},
+      f = try_hold(node, own, {memory.side, same_side}, of_all,
                    was_inside || (is_inside && dot(any.face_normal,
                                                    memory.side) >= same_side),
                    projection, place, dt);
     if (f < 0 && has_own)
       f = try_hold(node, own,
                    {-1. * own.direction, least_cosine_of_met_faces(own)},
-                   is_inside, projection, place, dt);
+                   of_all, is_inside, projection, place, dt);
     else if (f < 0 && is_inside)
-      f = try_hold(node, own, {any.face_normal, same_side}, true, projection,
-                   place, dt);
+      f = try_hold(node, own, {any.face_normal, same_side}, of_all, true,
+                   projection, place, dt);
+    kept_for = -1;
   }
   memory.side = f >= 0 ? projection.face_normal : any.face_normal;
   return f;

@@ -7,6 +7,7 @@
 #include "sabot/kernels/face_hit.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace sabot
@@ -20,6 +21,9 @@ struct NearFaces
   /** Of a node without faces of its own, as of the last search; without a
       direction where it has none. */
   SmoothNormal own = {};
+  /** The closest face when it was last looked for; -1: it has not been. Where
+      to look first, which has no part in what is found. */
+  std::ptrdiff_t last_closest = -1;
 };
 
 /**
@@ -46,15 +50,12 @@ public:
   /** Per face, slots; with the faces around all corners of those in
       face_of_node, and around all nodes that have faces. */
   std::vector<std::array<std::size_t, 4>> corners;
-  std::vector<std::size_t> face_of_node; // indices of corners, node by node
+  std::vector<std::uint32_t> face_of_node; // indices of corners, node by node
 
   void clear();
   /** Once faces and halo are there; arguments of SurfaceNormals::build(). */
   void build_normals(const std::vector<std::vector<SymmetryPlane>> &planes,
-                     const double nearness, const std::vector<double> &reach)
-  {
-    normals.build(planes, nearness, reach);
-  }
+                     const double nearness, const std::vector<double> &reach);
 
   /**
    * The face that holds a node, with a negative gap in @p projection. A node
@@ -73,9 +74,18 @@ public:
    * @return the face, -1 when none holds it (@p projection and @p place are
    *   then meaningless).
    */
-  std::ptrdiff_t holding(const NearFaces &node, ContactMemory &memory,
+  std::ptrdiff_t holding(NearFaces &node, ContactMemory &memory,
                          FaceProjection &projection, PressingPlace &place,
                          double &nearest, const double dt) const;
+  /** Whether all of a face is farther from @p p than @p distance [m], as its
+      ball tells; of few that are not much farther it does not. */
+  bool is_farther(const std::size_t face, const Vec p,
+                  const double distance) const
+  {
+    const Vec ball = shape(face).ball; // a line of the cache for each test
+    const double reach = distance + ball[3];
+    return norm_square(p - ball) > reach * reach;
+  }
 
 private:
   /** Faces whose normal has at least this cosine with the direction. */
@@ -88,11 +98,20 @@ private:
    * Closest of a node's faces. Of faces that share the closest edge the one
    * that faces the node more squarely tells the right side; of faces that it
    * touches (closer than 1e-6 spacings) the one it moves against.
+   * @param first: one of them, the closer the fewer are looked at; -1: there is
+   *   none.
    * @param side: if given, only faces of that side.
    * @return the face, -1 when there is none (@p projection is then left).
    */
-  std::ptrdiff_t closest(const NearFaces &node, FaceProjection &projection,
+  std::ptrdiff_t closest(const NearFaces &node, const std::ptrdiff_t first,
+                         FaceProjection &projection,
                          const Side *const side) const;
+  /** The closest face of all, and where the node is against it. */
+  struct Closest
+  {
+    std::ptrdiff_t face;
+    FaceProjection projection;
+  };
   /** Where the node stands against the faces of a side, whose closest is
       @p face with @p projection. @return the face above or below which it
       stands, -1 beyond the rim (@p projection is then left). */
@@ -109,12 +128,13 @@ private:
   std::ptrdiff_t hit(const NearFaces &node, const Vec p, const Vec n,
                      const Side &side, const double reach, FaceHit &found,
                      SmoothNormal &mean) const;
-  /** The face of a side that holds the node. @p may_be_deep: it is known to be
+  /** The face of a side that holds the node, of whose faces @p of_all is the
+      closest. @p may_be_deep: it is known to be
       inside; else it must have come through in the last step. */
   std::ptrdiff_t try_hold(const NearFaces &node, const SmoothNormal &own,
-                          const Side &side, const bool may_be_deep,
-                          FaceProjection &projection, PressingPlace &place,
-                          const double dt) const;
+                          const Side &side, const Closest &of_all,
+                          const bool may_be_deep, FaceProjection &projection,
+                          PressingPlace &place, const double dt) const;
   /** SurfaceNormals::bulge() of what a node meets; none for particles, which
       stand for a volume as wide as facets. */
   double bulge_below(const NearFaces &node, const std::size_t face,
@@ -125,17 +145,47 @@ private:
                            std::ptrdiff_t &face,
                            FaceProjection &standing) const;
   std::array<Vec, 4> places(const std::size_t face) const;
-  /** A face as many nodes ask for it. */
+  /** A face as many nodes ask for it; the radius of the ball around it stands
+      in the fourth lane. */
   struct Shape
   {
-    std::uint64_t version = 0; // of the halo
-    FaceBall ball;
-    Vec normal = {};
+    Vec ball = {}, normal = {};
   };
   /** Found once after the halo has moved. */
-  const Shape &shape(const std::size_t face) const;
+  const Shape &shape(const std::size_t face) const
+  {
+    if (version_of_shape[face] != halo.version())
+      find_shape(face);
+    return shapes[face];
+  }
+  void find_shape(const std::size_t face) const;
+  /** Those of a node's faces that lines from it may meet within @p reach [m],
+      ascending as all are. */
+  void keep_within(const NearFaces &node, const double reach) const;
+  struct Faces
+  {
+    const std::uint32_t *first, *last;
+    const std::uint32_t *begin() const { return first; }
+    const std::uint32_t *end() const { return last; }
+  };
+  Faces faces_of(const NearFaces &node) const
+  {
+    return {face_of_node.data() + node.first_face,
+            face_of_node.data() + node.last_face};
+  }
+  /** All of a node's faces that may be within @p reach [m], and others. */
+  Faces faces_within(const NearFaces &node, const double reach) const
+  {
+    if (node.slot == kept_for && reach <= kept_reach)
+      return {kept.data(), kept.data() + kept.size()};
+    return faces_of(node);
+  }
   /** Whether the face is of the side; all are of none. */
-  static bool looks(const Shape &face, const Side *const side);
+  static bool looks(const Shape &face, const Side *const side)
+  {
+    return side == nullptr ||
+           !(dot(face.normal, side->direction) < side->least_cosine);
+  }
   /** Of a node's faces of the side; -1: there is none. */
   std::ptrdiff_t nearest_center(const NearFaces &node,
                                 const Side *const side) const;
@@ -145,7 +195,13 @@ private:
 
   const NodeHalo &halo;
   SurfaceNormals normals;
-  mutable std::vector<Shape> shapes; // of the faces that were asked for
+  // Of the faces that were asked for
+  mutable AlignedVector<Shape> shapes;
+  mutable std::vector<std::uint64_t> version_of_shape; // of the halo
+  // keep_within() of the node that holding() looks at
+  mutable std::vector<std::uint32_t> kept;
+  mutable std::size_t kept_for = -1;
+  mutable double kept_reach = -1.; // [m]
 };
 } // namespace sabot
 
