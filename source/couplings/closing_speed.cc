@@ -2,12 +2,43 @@
 #include "sabot/couplings/closing_speed.h"
 
 #include "sabot/couplings/box_buckets.h"
+#include "sabot/kernels/pack.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sabot
 {
+namespace
+{
+/** Of n velocities less @p middle, four at a time; @p box grows around all. */
+double largest_square(const Vec *const velocity, const std::size_t n,
+                      const Vec middle, Box &box)
+{
+  Pack square = {};
+  std::size_t i = 0;
+  for (; i + n_lanes <= n; i += n_lanes)
+  {
+    for (std::size_t k = 0; k < n_lanes; ++k)
+      box.add(velocity[i + k]);
+    constexpr std::uint32_t four[n_lanes] = {0, 1, 2, 3};
+    Pack v[3];
+    gather(velocity + i, four, v);
+    Pack sum = {};
+    for (int d = 0; d < 3; ++d)
+      sum += (v[d] - middle[d]) * (v[d] - middle[d]);
+    square = pack_max(sum, square);
+  }
+  double largest = std::max({0., square[0], square[1], square[2], square[3]});
+  for (; i < n; ++i)
+  {
+    box.add(velocity[i]);
+    largest = std::max(largest, norm_square(velocity[i] - middle));
+  }
+  return largest;
+}
+} // namespace
+
 double ClosingSpeed::largest(const std::vector<Body *> &bodies,
                              const std::vector<std::pair<int, int>> &pairs,
                              MPI_Comm communicator, const unsigned int mirrored)
@@ -24,14 +55,8 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
     {
       const NodalState &nodes = bodies[b]->nodes();
       Box box;
-      double square = 0.;
-      for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      {
-        const Vec v = nodes.velocity[i];
-        box.add(v);
-        square = std::max(square, norm_square(v - middle));
-      }
-      top[b] = square;
+      top[b] =
+          largest_square(nodes.velocity.data(), nodes.n_owned, middle, box);
       for (int d = 0; d < 3; ++d)
       {
         top[n + d] = std::max(top[n + d], -box.low[d]);

@@ -112,15 +112,18 @@ void SelfContact::find_pairs()
         [&](const std::size_t k)
         {
           const DebrisImages::Item &other = items[k];
+          const double square = norm_square(other.x - from.x);
+          if (square > reach * reach)
+            return;
           const LooseParticle &to = near[other.number];
           const NodeKey &b = to.key;
-          const double distance = norm(other.x - from.x);
-          if (distance > reach || !debris.may_meet(a, b) ||
-              (a == b && other.image == 0) || (other.image & ~images_of_a))
-            return;
           // A pair owned here twice is kept once.
           if (b < a && bodies[b.body]->node_owner[b.node] == rank)
             return;
+          if (!debris.may_meet(a, b) || (a == b && other.image == 0) ||
+              (other.image & ~images_of_a))
+            return;
+          const double distance = std::sqrt(square);
           if (a.body == b.body && other.image == 0 &&
               bodies[a.body]->particles()->are_bonded(from.local, b.node))
             return;
