@@ -108,23 +108,52 @@ void SymmetryWalls::add_forces(const double dt)
   {
     if (walls[b].empty())
       continue;
-    // One look at each node for all planes.
-    const NodalState &nodes = bodies[b]->nodes();
-    const double step = bodies[b]->moves_node_by_node() ? dt : 0.;
-    for (std::size_t i = 0; i < nodes.n_owned; ++i)
-      for (const SymmetryWall &wall : walls[b])
-      {
-        // The mass times where it would be, one step on.
-        const int axis = wall.plane.axis;
-        const double next =
-            nodes.inertia[i] * (wall.distance(nodes.position[i]) +
-                                step * (wall.side * nodes.velocity[i][axis])) +
-            step * step * (wall.side * nodes.force[i][axis]);
-        if (next < 0. && !nodes.is_follower(i) &&
-            !(wall.distance(nodes.reference_position[i]) <= wall.held_within))
-          hold({std::uint32_t(b), std::uint32_t(i), axis, dt, Vec{}}, wall,
-               next, before);
-      }
+    for (const WallsOfAxes &of : by_axes(walls[b]))
+      hold_at(of, b, dt, before);
+  }
+}
+
+std::vector<SymmetryWalls::WallsOfAxes>
+SymmetryWalls::by_axes(const std::vector<SymmetryWall> &of_body)
+{
+  std::vector<WallsOfAxes> sets;
+  for (const SymmetryWall &wall : of_body)
+  {
+    const int axis = wall.plane.axis;
+    auto set = std::find_if(sets.begin(), sets.end(),
+                            [&](const WallsOfAxes &of)
+                            { return of.wall[axis] == nullptr; });
+    if (set == sets.end())
+      set = sets.insert(set, WallsOfAxes());
+    set->coordinate[axis] = wall.plane.coordinate;
+    set->side[axis] = wall.side;
+    set->wall[axis] = &wall;
+  }
+  return sets;
+}
+
+void SymmetryWalls::hold_at(const WallsOfAxes &of, const std::size_t b,
+                            const double dt, const std::vector<Held> &before)
+{
+  const NodalState &nodes = bodies[b]->nodes();
+  const double step = bodies[b]->moves_node_by_node() ? dt : 0.;
+  const Vec coordinate = of.coordinate, side = of.side;
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    // The mass times where it would be, one step on, for all axes at once.
+    const Vec next =
+        side * (nodes.inertia[i] * (nodes.position[i] - coordinate +
+                                    step * nodes.velocity[i]) +
+                step * step * nodes.force[i]);
+    const auto beyond = next < 0.;
+    if (!(beyond[0] | beyond[1] | beyond[2]))
+      continue;
+    for (int axis = 0; axis < 3; ++axis)
+      if (beyond[axis] && !nodes.is_follower(i) &&
+          !(of.wall[axis]->distance(nodes.reference_position[i]) <=
+            of.wall[axis]->held_within))
+        hold({std::uint32_t(b), std::uint32_t(i), axis, dt, Vec{}},
+             *of.wall[axis], next[axis], before);
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include "sabot/couplings/coupling.h"
 
+#include <array>
+
 namespace sabot
 {
 /** A plane of symmetry as one body sees it, and on which side the model is. */
@@ -92,6 +94,18 @@ private:
   };
   /** Of what all ranks held, the nodes that are owned here. */
   void restore_held(std::vector<SavedHeld> saved);
+  /** The walls of a body that one look at a node tells of all: at most one
+      across each axis. */
+  struct WallsOfAxes
+  {
+    Vec coordinate = {}, side = {}; // side 0: none across this axis
+    std::array<const SymmetryWall *, 3> wall{};
+  };
+  static std::vector<WallsOfAxes>
+  by_axes(const std::vector<SymmetryWall> &of_body);
+  /** Holds what comes to one of the walls @p of of body @p b. */
+  void hold_at(const WallsOfAxes &of, const std::size_t b, const double dt,
+               const std::vector<Held> &before);
   /** Pushes @p h, so far without a force, off the wall; @p next: its mass times
       its distance one step on [kg m], @p before: who was held in the last
       step. */
