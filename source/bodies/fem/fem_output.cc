@@ -15,24 +15,14 @@ namespace
 double largest_state(const Hexahedra &cells, const std::vector<char> &counts,
                      const std::string &variable)
 {
-  std::size_t n_rows = 0, row = 0;
-  bool is_known = false;
+  std::size_t row = 0;
   for (const StateVariable &v : cells.states())
   {
     if (v.name == variable)
-      row = n_rows;
-    is_known = is_known || v.name == variable;
-    n_rows += v.is_tensor ? n_symmetric : 1;
+      return cells.largest_mean(row, counts);
+    row += v.is_tensor ? n_symmetric : 1;
   }
-  double largest = 0.;
-  std::vector<double> means(n_rows);
-  for (std::size_t e = 0; e < cells.size() && is_known; ++e)
-    if (counts[e])
-    {
-      cells.mean_states(e, means.data());
-      largest = std::max(largest, means[row]);
-    }
-  return largest;
+  return 0.;
 }
 } // namespace
 

@@ -6,6 +6,7 @@
 #include "sabot/kernels/polar.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace sabot
 {
@@ -249,6 +250,26 @@ void Hexahedra::mean_states(const std::size_t e, double *const values) const
       sum += points.state_row(r)[q];
     values[r] = sum / n_points;
   }
+}
+
+double Hexahedra::largest_mean(const std::size_t row,
+                               const std::vector<char> &counts) const
+{
+  const double *const values = points.state_row(row);
+  double largest = 0.;
+  if (n_points == 1)
+  {
+    for (std::size_t e = 0; e < size(); ++e)
+      largest = std::max(largest, counts[e] ? values[e] : 0.);
+    return largest;
+  }
+  for (std::size_t e = 0; e < size(); ++e)
+    if (counts[e])
+      largest =
+          std::max(largest, std::accumulate(values + e * n_points,
+                                            values + (e + 1) * n_points, 0.) /
+                                n_points);
+  return largest;
 }
 
 void Hexahedra::shift_state(const std::string &name,

@@ -137,6 +137,9 @@ public:
     return sum_points(points.viscous_pressure, e) / n_points;
   }
   void mean_states(const std::size_t e, double *values) const;
+  /** The largest mean of row @p row over the cells that count, at least 0. */
+  double largest_mean(const std::size_t row,
+                      const std::vector<char> &counts) const;
   /** Present flow stress of some cells [Pa], the mean of their points. By
       FlowStressProbe at the points' own pressure, volume ratio and state;
       1e300 where the law never yields. */

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace sabot
@@ -104,40 +103,69 @@ unsigned int planes_at(const Vec &reference,
   return bits;
 }
 
-/** Add up the sums of all ranks: all learn all labels, then add in the order of
-    labels. */
-void reduce(std::map<GlobalIndex, Sums> &local, MPI_Comm communicator)
+/** What the particles of each piece add up to, by ascending label. */
+class PieceSums
+{
+public:
+  explicit PieceSums(const std::vector<GlobalIndex> &label)
+  {
+    for (std::size_t i = 0; i < label.size(); ++i)
+      if (i == 0 || label[i] != label[i - 1])
+        labels.push_back(label[i]);
+    make_places();
+  }
+  Sums &of(const GlobalIndex label)
+  {
+    return sums[std::lower_bound(labels.begin(), labels.end(), label) -
+                labels.begin()];
+  }
+  /** Add up over ranks: all learn all labels, then add in their order. */
+  void reduce(MPI_Comm communicator);
+
+  std::vector<GlobalIndex> labels;
+  std::vector<Sums> sums;
+
+private:
+  void make_places()
+  {
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    sums.assign(labels.size(), Sums());
+  }
+};
+
+void PieceSums::reduce(MPI_Comm communicator)
 {
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
   if (n_ranks == 1)
     return;
-  std::vector<GlobalIndex> mine;
-  for (const auto &entry : local)
-    mine.push_back(entry.first);
-  for (const GlobalIndex l : gather_all(mine, communicator))
-    local[l];
-  std::vector<ExactSum *> sums;
+  const std::vector<GlobalIndex> mine = std::move(labels);
+  const std::vector<Sums> of_mine = std::move(sums);
+  labels = gather_all(mine, communicator);
+  make_places();
+  for (std::size_t k = 0; k < mine.size(); ++k)
+    of(mine[k]) = of_mine[k];
+  std::vector<ExactSum *> exact;
   std::vector<GlobalIndex> sizes;
   std::vector<unsigned int> planes;
-  for (auto &entry : local)
+  for (Sums &piece : sums)
   {
-    sums.push_back(&entry.second.mass);
-    for (ExactSum &s : entry.second.momentum)
-      sums.push_back(&s);
-    sizes.push_back(entry.second.n);
-    planes.push_back(entry.second.planes);
+    exact.push_back(&piece.mass);
+    for (ExactSum &s : piece.momentum)
+      exact.push_back(&s);
+    sizes.push_back(piece.n);
+    planes.push_back(piece.planes);
   }
-  ExactSum::reduce(sums, communicator);
+  ExactSum::reduce(exact, communicator);
   MPI_Allreduce(MPI_IN_PLACE, sizes.data(), sizes.size(), MPI_INT64_T, MPI_SUM,
                 communicator);
   MPI_Allreduce(MPI_IN_PLACE, planes.data(), planes.size(), MPI_UNSIGNED,
                 MPI_BOR, communicator);
-  std::size_t k = 0;
-  for (auto &entry : local)
+  for (std::size_t k = 0; k < sums.size(); ++k)
   {
-    entry.second.n = sizes[k];
-    entry.second.planes = planes[k++];
+    sums[k].n = sizes[k];
+    sums[k].planes = planes[k];
   }
 }
 
@@ -169,12 +197,12 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const double tolerance,
                                      MPI_Comm communicator)
 {
-  std::map<GlobalIndex, Sums> sums;
+  PieceSums all(label);
   Sums *last = nullptr; // most particles are in the piece of the one before
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
     if (last == nullptr || label[i] != label[i - 1])
-      last = &sums[label[i]];
+      last = &all.of(label[i]);
     Sums &s = *last;
     ++s.n;
     s.planes |= planes_at(nodes.reference_position[i], planes, tolerance);
@@ -182,10 +210,11 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
     for (int d = 0; d < 3; ++d)
       s.momentum[d].add(nodes.lumped_mass[i] * nodes.velocity[i][d]);
   }
-  reduce(sums, communicator);
+  all.reduce(communicator);
   std::vector<Fragment> pieces;
-  for (const auto &entry : sums)
-    pieces.push_back(piece_of(entry.first, entry.second, planes));
+  pieces.reserve(all.labels.size());
+  for (std::size_t k = 0; k < all.labels.size(); ++k)
+    pieces.push_back(piece_of(all.labels[k], all.sums[k], planes));
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Fragment &a, const Fragment &b)
                    { return a.mass > b.mass; });
