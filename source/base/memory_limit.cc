@@ -1,6 +1,7 @@
 // How much memory a process may take.
 #include "sabot/base/memory_limit.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -28,5 +29,12 @@ double memory_limit()
       limit = std::min(limit, group);
   }
   return limit;
+}
+
+void give_back_memory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 } // namespace sabot

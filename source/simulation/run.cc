@@ -3,6 +3,7 @@
 #include "sabot/simulation/found_zone.h"
 
 #include "sabot/base/error_report.h"
+#include "sabot/base/memory_limit.h"
 #include "sabot/base/stop_signals.h"
 #include "sabot/base/text.h"
 #include "sabot/output/file_tools.h"
@@ -132,6 +133,7 @@ void Run::start(const std::string &checkpoint)
   {
     const auto timer = timers.scope("set-up");
     within_memory("the parts of the ranks", [&]() { scene.distribute(); });
+    give_back_memory();
     stop_early_when_asked(communicator);
     within_memory("the first forces", [&]() { stepper.initialize(); });
     step_shares.start(stepper.own_steps());

@@ -1,6 +1,7 @@
 // A body of hexahedra: its nodes on this rank, the life of a step, and reports.
 #include "sabot/bodies/fem/fem_body.h"
 
+#include "sabot/base/memory_limit.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/fem/fem_mass_scaling.h"
 
@@ -96,6 +97,7 @@ void FemBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     owned_cell = std::move(part.owned_cell);
     mesh = HexMesh(); // before the cells take their room
   }
+  give_back_memory();
   // Masses add up in global cell order.
   for (std::size_t e = 0; e < local.id.size(); ++e)
     for (const std::uint32_t a : local.connectivity[e])
