@@ -236,10 +236,10 @@ public:
   }
   /** Calls @p action(face) for the faces of @p body whose boxes are within
       @p distance of @p x, ascending: those that may be as near, and few others.
-   */
+      @return the number of boxes that were looked at. */
   template <typename Action>
-  void for_near(const int body, const Vec x, const double distance,
-                const Action &action) const
+  std::int64_t for_near(const int body, const Vec x, const double distance,
+                        const Action &action) const
   {
     const auto near = buckets[body].find(x);
     for (const std::int32_t *item = near.first; item != near.second; ++item)
@@ -248,6 +248,7 @@ public:
       if (boxes[f].distance_square(x) <= distance * distance)
         action(f);
     }
+    return near.second - near.first;
   }
 
 private:
@@ -316,13 +317,13 @@ void try_nodes(const ContactSearch &search, const ContactPair &pair,
         std::clamp(memory.depth, search.spacing, deepest_known(search)) +
         search.skin;
     const std::int64_t first = near.size();
-    buckets.for_near(pair.faces_of, x, reach,
-                     [&](const std::int64_t f)
-                     {
-                       if (!with_itself ||
-                           own_faces.may_meet(i, x, result.faces[f], memory))
-                         near.push_back(f);
-                     });
+    result.n_compared += buckets.for_near(
+        pair.faces_of, x, reach,
+        [&](const std::int64_t f)
+        {
+          if (!with_itself || own_faces.may_meet(i, x, result.faces[f], memory))
+            near.push_back(f);
+        });
     const std::int64_t last = near.size();
     SmoothNormal own;
     if (last > first && particles != nullptr && !is_loose[i])

@@ -52,6 +52,9 @@ struct SearchResult
   std::vector<FaceNodes> faces;                // sorted by body and id
   std::vector<std::int64_t> face_of_candidate; // indices of faces
   std::vector<ContactCandidate> candidates;    // sorted by node, then body
+  /** Boxes of faces that this rank compared nodes with: what it cost, whatever
+      else the machine does. */
+  std::int64_t n_compared = 0;
 };
 
 /** Memories of the nodes owned here, sorted by node: a node that went deeper
