@@ -381,7 +381,8 @@ void ParameterFile::parse_into(
               "; did you mean \"" + nearest_name(wanted, allowed) + "\"?";
         if (!allowed.empty() && allowed.size() <= 30)
         {
-          message += " Allowed here: ";
+          message +=
+              message.back() == '?' ? " Allowed here: " : "; allowed here: ";
           for (std::size_t i = 0; i < allowed.size(); ++i)
             message += (i > 0 ? ", " : "") + allowed[i];
         }

@@ -42,5 +42,6 @@ void warn_of_doubts(const ParameterFile &file,
   append(scene.warnings, doubtful_end_time(scene));
   append(scene.warnings, slips_of_entries(file, outlines, scene));
   append(scene.warnings, slips_of_loads(file, scene));
+  append(scene.warnings, slips_of_zones(file, scene));
 }
 } // namespace sabot

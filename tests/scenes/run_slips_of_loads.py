@@ -53,8 +53,28 @@ def contact(first, second=None):
 
 MEET = {"Bodies": "block, rod"}
 
+
+def with_zone(loads=None, plate=None, zone=None):
+    """A plate and its zone, which reaches the faces -x, -z and +z."""
+    return scene(
+        dict(BLOCK, Size="12 mm, 6 mm, 2 mm", **dict({"Cell size": "1 mm"},
+                                                     **(plate or {}))), loads,
+        {"seam": {"Type": "tie", "Follower": "zone", "Leader": "block"}},
+        {"zone": dict({"Discretization": "SPG", "Carve from": "block",
+                       "Material": "steel", "Size": "4 mm, 4 mm, 2 mm",
+                       "Center": "-4 mm, 0 mm, 0 mm", "Nodal spacing": "1 mm"},
+                      **(zone or {}))})
+
+
+CLAMPED = {"Clamped faces": "-x"}
+
 # Text of the scene, words of the one line that refuses it.
 REFUSED = (
+    (scene(BLOCK, more="set List of quantities = force\n") + section(
+        "Quantities", {"force": {"Type": "section force", "Body": "block",
+                                 "Point": "0 mm, 0 mm, 3 mm"}}),
+     ("Quantities/force/Point", "outside of body \"block\"",
+      "from -2 to 2 mm")),
     (scene(BLOCK, {"up": UP, "out": dict(UP, Faces="+x",
                                          Velocity="5 m/s, 0 m/s, 0 m/s")}),
      ("Loads/out/Faces", "2) mm of body", "is moved by \"up\", too")),
@@ -110,6 +130,18 @@ WARNED = (
      "across the body's plane of symmetry x"),
     (scene(dict(BLOCK, **{"Symmetry faces": "-x", "Initial velocity":
                           "0 m/s, 9 m/s, 0 m/s"})), None),
+    (with_zone(), None),
+    (with_zone(plate=CLAMPED), "Bodies/block/Clamped faces: \"-x\" does not "
+     "hold the particles of its zone \"zone\""),
+    (with_zone(plate=CLAMPED, zone={"Clamped faces": "x = -6 mm"}), None),
+    (with_zone(plate={"Clamped faces": "+x"}), None),
+    (with_zone(plate={"Driven faces": "x = -6 mm", "Prescribed velocity":
+                      "0 m/s, 0 m/s, 5 m/s"}), "does not move the particles"),
+    (with_zone({"push": PRESSURE}),
+     "\"+z\" of \"block\" does not load the particles"),
+    (with_zone({"push": PRESSURE, "more": dict(PRESSURE, Body="zone")}), None),
+    (with_zone({"g": {"Bodies": "block"}}), "not its zone \"zone\""),
+    (with_zone({"g": {"Bodies": "block, zone"}}), None),
     (contact(MEET), None),
     (contact({"Type": "self-contact", "Bodies": "rod"}, MEET), None),
 )

@@ -123,6 +123,11 @@ std::vector<std::string> slips_of_entries(const ParameterFile &file,
 std::vector<std::string> slips_of_loads(const ParameterFile &file,
                                         const Scene &scene);
 
+/** Clamps, drives and loads of a host's face that its zone of particles reaches
+    without one, gravity on a host alone. */
+std::vector<std::string> slips_of_zones(const ParameterFile &file,
+                                        const Scene &scene);
+
 /** Adds to the warnings of the scene what all of these say. @p file: which
     contacts it describes, listed or not. */
 void warn_of_doubts(const ParameterFile &file,

@@ -1,6 +1,8 @@
 // Quantity of interest: the force that a cross-section of a body carries.
+#include "sabot/base/text.h"
 #include "sabot/simulation/directed_quantity.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sabot
@@ -26,6 +28,7 @@ public:
           "\"" + across.body.name +
               "\" is rigid: it has no internal forces; name a body "
               "of cells or particles");
+    refuse_outside(request);
     std::array<int, 3> n_planes{};
     for (const SymmetryPlane &plane : across.body.planes_of_symmetry())
     {
@@ -62,6 +65,25 @@ public:
   std::string unit() const override { return "N"; }
 
 private:
+  void refuse_outside(const QuantityRequest &request) const
+  {
+    double low = 1e300, high = -1e300;
+    for (const std::array<double, 3> &p : across.body.partition_points())
+    {
+      const double place = dot(across.direction, vec(p[0], p[1], p[2]));
+      low = std::min(low, place);
+      high = std::max(high, place);
+    }
+    if (low < high && (offset < low || offset > high))
+      throw InputError(request.path + "/Point",
+                       "the section lies outside of body \"" +
+                           across.body.name + "\": at " +
+                           formatted("%.6g mm along the direction, the body ",
+                                     1e3 * offset) +
+                           formatted("from %.6g", 1e3 * low) +
+                           formatted(" to %.6g mm", 1e3 * high));
+  }
+
   const DirectedQuantity across;
   MPI_Comm communicator;
   double offset = 0.; // of the plane along the direction [m]
