@@ -287,9 +287,9 @@ std::unique_ptr<Body> BodyAssembly::make_body(const std::string &name,
   {
     posture.turn.apply(made->second.mesh);
     // A zone that finds itself has the faces that its host's entries list.
-    const auto own = std::find_if(
-        carvings.begin(), carvings.end(),
-        [&](const Carving &c) { return c.zone == name && c.finds_itself; });
+    const auto own = std::find_if(carvings.begin(), carvings.end(),
+                                  [&](const Carving &c)
+                                  { return c.zone == name && c.finds_itself; });
     name_planes_of(own == carvings.end() ? path : "Bodies/" + own->body,
                    made->second);
     request.cells = std::move(made->second);
