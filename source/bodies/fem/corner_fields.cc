@@ -1,6 +1,8 @@
 // Stress and volume ratio where the shares of cells lie.
 #include "sabot/bodies/fem/corner_fields.h"
 
+#include "sabot/kernels/stress_update.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,16 +13,6 @@ namespace
 /** In VTK order: bit d says whether the corner lies at the upper end of axis
     d of the cell. */
 constexpr int side[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-
-double von_mises(const double *const stress)
-{
-  const double mean = (stress[0] + stress[1] + stress[2]) / 3.;
-  double square = 0.;
-  for (int c = 0; c < 3; ++c)
-    square += (stress[c] - mean) * (stress[c] - mean) +
-              2. * stress[c + 3] * stress[c + 3];
-  return std::sqrt(1.5 * square);
-}
 } // namespace
 
 CornerFields::Values CornerFields::values_of(const Hexahedra &cells,
