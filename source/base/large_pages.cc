@@ -15,10 +15,10 @@
 namespace
 {
 #ifdef __linux__
-/** Let the heap grow by many large pages at once, which advise_heap() then asks
-    for before anything stands in them. Once this is set glibc no longer adapts
-    its other limits, which then are set as it would set them after arrays of 32
-    MB have come and gone: what is let go stays for the next kernel update
+/** Let the heap grow by many large pages at once, which advise_around() then
+   asks for before anything stands in them. Once this is set glibc no longer
+   adapts its other limits, which then are set as it would set them after arrays
+   of 32 MB have come and gone: what is let go stays for the next kernel update
     instead of being cleared anew by the kernel. */
 bool prepare_heap()
 {

@@ -90,6 +90,8 @@ SymmetryWalls::SymmetryWalls(const std::vector<Body *> &bodies,
       communicator(communicator), walls(find_symmetry_walls(bodies)),
       impulse(bodies.size())
 {
+  for (const auto &of_body : walls)
+    of_axes.push_back(by_axes(of_body));
 }
 
 bool SymmetryWalls::any() const
@@ -105,12 +107,8 @@ void SymmetryWalls::add_forces(const double dt)
   if (!is_step(dt))
     return;
   for (std::size_t b = 0; b < bodies.size(); ++b)
-  {
-    if (walls[b].empty())
-      continue;
-    for (const WallsOfAxes &of : by_axes(walls[b]))
+    for (const WallsOfAxes &of : of_axes[b])
       hold_at(of, b, dt, before);
-  }
 }
 
 std::vector<SymmetryWalls::WallsOfAxes>

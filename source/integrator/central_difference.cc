@@ -4,6 +4,7 @@
 #include "sabot/integrator/central_difference.h"
 
 #include "sabot/base/error.h"
+#include "sabot/base/text_of_ranks.h"
 
 #include <algorithm>
 
@@ -227,19 +228,9 @@ void CentralDifference::hold_steps(const unsigned int step, bool changed)
 
 void CentralDifference::agree_on_problems(const std::string &problem) const
 {
-  int rank, n_ranks;
-  MPI_Comm_rank(communicator, &rank);
-  MPI_Comm_size(communicator, &n_ranks);
-  int first = problem.empty() ? n_ranks : rank;
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, communicator);
-  if (first == n_ranks)
-    return;
-  int length = problem.size();
-  MPI_Bcast(&length, 1, MPI_INT, first, communicator);
-  std::string message = problem;
-  message.resize(length);
-  MPI_Bcast(&message[0], length, MPI_CHAR, first, communicator);
-  throw PhysicsError(message);
+  const std::string message = text_of_first(problem, communicator);
+  if (!message.empty())
+    throw PhysicsError(message);
 }
 
 StepProposal CentralDifference::propose(const bool interrupted) const

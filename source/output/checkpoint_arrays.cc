@@ -3,6 +3,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
+#include "sabot/base/text_of_ranks.h"
 
 #include <algorithm>
 #include <exception>
@@ -237,10 +238,7 @@ void tell_lines(std::vector<StateLine> &lines, MPI_Comm communicator)
   std::string text;
   for (const StateLine &line : lines)
     text += text_of(0, line);
-  unsigned long length = text.size();
-  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, communicator);
-  text.resize(length);
-  MPI_Bcast(&text[0], length, MPI_CHAR, 0, communicator);
+  broadcast_text(text, communicator);
   std::istringstream stream(text);
   for (std::string line; rank != 0 && std::getline(stream, line);)
     lines.push_back(line_of(line).second);

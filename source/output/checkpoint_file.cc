@@ -3,6 +3,7 @@
 
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
+#include "sabot/base/text_of_ranks.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -118,23 +119,6 @@ void check_part(const std::string &file, const checkpoint_format::Part &part)
   const std::string name = checkpoint_format::part_name(file, part.first);
   if (check_trailer(name) != part.hash)
     damaged(name, "it is not the one that \"" + file + "\" was written with");
-}
-
-/** The first rank that has a @p problem tells all. Collective. */
-std::string first_problem(std::string problem, MPI_Comm communicator)
-{
-  int rank, n_ranks, first;
-  MPI_Comm_rank(communicator, &rank);
-  MPI_Comm_size(communicator, &n_ranks);
-  const int own = problem.empty() ? n_ranks : rank;
-  MPI_Allreduce(&own, &first, 1, MPI_INT, MPI_MIN, communicator);
-  if (first == n_ranks)
-    return "";
-  unsigned long length = problem.size();
-  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, first, communicator);
-  problem.resize(length);
-  MPI_Bcast(&problem[0], length, MPI_CHAR, first, communicator);
-  return problem;
 }
 } // namespace
 
@@ -317,7 +301,7 @@ CheckpointHeader CheckpointFile::verify(const std::string &file,
       problem = e.what();
       other = std::current_exception();
     }
-    problem = first_problem(problem, communicator);
+    problem = text_of_first(problem, communicator);
     if (other)
       std::rethrow_exception(other);
     if (!problem.empty())
@@ -334,10 +318,7 @@ CheckpointHeader CheckpointFile::verify(const std::string &file,
         header_of(text_in(first.h5, "header", file), file);
         text = text_in(first.h5, "parts", file);
       });
-  unsigned long length = text.size();
-  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, communicator);
-  text.resize(length);
-  MPI_Bcast(&text[0], length, MPI_CHAR, 0, communicator);
+  broadcast_text(text, communicator);
   const auto parts = checkpoint_format::parts_of(text);
   seek(
       [&]()

@@ -5,6 +5,7 @@
 #include "sabot/base/error.h"
 #include "sabot/base/hash.h"
 #include "sabot/base/text.h"
+#include "sabot/base/text_of_ranks.h"
 #include "sabot/output/checkpoint.h"
 #include "sabot/output/file_tools.h"
 #include "sabot/simulation/run.h"
@@ -49,14 +50,6 @@ void check_overrides(const std::vector<std::string> &overrides)
     throw InputError("", "--set \"" + text +
                              "\": a resumed run can only change " + allowed);
   }
-}
-
-void broadcast(std::string &text, MPI_Comm communicator)
-{
-  unsigned long length = text.size();
-  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, communicator);
-  text.resize(length);
-  MPI_Bcast(&text[0], length, MPI_CHAR, 0, communicator);
 }
 
 /** "End time" of "set End time = 1 ms"; empty for other lines. */
@@ -158,7 +151,7 @@ void help_to_verify(MPI_Comm communicator)
 {
   for (std::string file;;)
   {
-    broadcast(file, communicator);
+    broadcast_text(file, communicator);
     if (file.empty())
       return;
     try
@@ -253,7 +246,7 @@ ResumePoint find_resume_point(const std::string &folder,
   std::string input_problem, file_problem;
   const auto verify = [communicator](std::string file)
   {
-    broadcast(file, communicator);
+    broadcast_text(file, communicator);
     return CheckpointFile::verify(file, communicator);
   };
   if (rank == 0)
@@ -272,10 +265,10 @@ ResumePoint find_resume_point(const std::string &folder,
   else
     help_to_verify(communicator);
   if (std::string none; rank == 0)
-    broadcast(none, communicator);
+    broadcast_text(none, communicator);
   for (std::string *const text :
        {&input_problem, &file_problem, &point.checkpoint, &point.scene})
-    broadcast(*text, communicator);
+    broadcast_text(*text, communicator);
   MPI_Bcast(&point.time, 1, MPI_DOUBLE, 0, communicator);
   if (!input_problem.empty())
     throw InputError("", input_problem);

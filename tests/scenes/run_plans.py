@@ -15,6 +15,21 @@ class Plans(unittest.TestCase):
     def setUp(self):
         os.makedirs(WORK, exist_ok=True)
 
+    def plan(self, scene, settings):
+        """What is said, and the numbers."""
+        file = os.path.join(WORK, "plan.json")
+        done = sabot("plan", scene, "--json", file, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        with open(file) as stream:
+            return done.stdout, json.load(stream)
+
+    def run_of(self, scene, settings):
+        """The folder, and the result."""
+        out = folder("planned")
+        done = sabot("run", scene, "-o", out, "--quiet", *settings)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return out, result(out)
+
     def test_a_plan_is_right_within_a_factor_of_1_5(self):
         taylor = os.path.join(SOURCE, "prm/taylor/symmetric.prm")
         coarse = ("--set", "Bodies/upper/Cell size=1.2 mm", "--set",
@@ -28,15 +43,8 @@ class Plans(unittest.TestCase):
                 (rigid, ("--set", "End time=10 us"))):
             # Time depends on what else the machine does: it may be tried again.
             for attempt in range(5):
-                file = os.path.join(WORK, "plan.json")
-                done = sabot("plan", scene, "--json", file, *settings)
-                self.assertEqual(done.returncode, 0, done.stdout)
-                with open(file) as stream:
-                    plan = json.load(stream)
-                out = folder("planned")
-                done = sabot("run", scene, "-o", out, "--quiet", *settings)
-                self.assertEqual(done.returncode, 0, done.stdout)
-                r = result(out)
+                _, plan = self.plan(scene, settings)
+                out, r = self.run_of(scene, settings)
                 size = sum(os.path.getsize(os.path.join(where, name))
                            for where, _, names in os.walk(out)
                            for name in names)
@@ -61,18 +69,11 @@ class Plans(unittest.TestCase):
         for other in ("Radius=5 mm", "Initial velocity=0 m/s, 0 m/s, -500 m/s"):
             settings = coarse + ("--set", "Bodies/projectile/" + other)
             for attempt in range(5):
-                file = os.path.join(WORK, "plan.json")
-                done = sabot("plan", scene, "--json", file, *settings)
-                self.assertEqual(done.returncode, 0, done.stdout)
+                said, plan = self.plan(scene, settings)
                 self.assertIn("cells of plate that turn into core: to about",
-                              done.stdout)
-                self.assertIn("from its path", done.stdout)
-                with open(file) as stream:
-                    plan = json.load(stream)
-                out = folder("foreseen")
-                done = sabot("run", scene, "-o", out, "--quiet", *settings)
-                self.assertEqual(done.returncode, 0, done.stdout)
-                r = result(out)
+                              said)
+                self.assertIn("from its path", said)
+                _, r = self.run_of(scene, settings)
                 ratios = {
                     "particles": plan["conversions"]["core"]["particles"] /
                     r["found_zones"]["core"]["particles"],

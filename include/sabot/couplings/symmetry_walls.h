@@ -101,6 +101,7 @@ private:
     Vec coordinate = {}, side = {}; // side 0: none across this axis
     std::array<const SymmetryWall *, 3> wall{};
   };
+  /** Points to those of @p of_body. */
   static std::vector<WallsOfAxes>
   by_axes(const std::vector<SymmetryWall> &of_body);
   /** Holds what comes to one of the walls @p of of body @p b. */
@@ -114,7 +115,8 @@ private:
 
   const std::vector<Body *> bodies;
   MPI_Comm communicator;
-  std::vector<std::vector<SymmetryWall>> walls; // of each body
+  const std::vector<std::vector<SymmetryWall>> walls; // of each body
+  std::vector<std::vector<WallsOfAxes>> of_axes;      // the same
   std::vector<Held> held;
   std::vector<ExactVectorSum> impulse; // on the nodes of each body [N s]
   ExactSum work;                       // on owned nodes [J]
