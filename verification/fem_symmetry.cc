@@ -1,39 +1,13 @@
 // Planes of symmetry: quarters of models against the whole, and driven ends.
 #include "sabot/couplings/contact.h"
+#include "verification/halves.h"
 #include "verification/problem.h"
 #include "verification/world.h"
-
-#include <map>
 
 namespace sabot
 {
 namespace
 {
-/** Positions by reference position, on a grid of a nanometer. */
-std::map<std::array<long, 3>, Vec> positions(const Body &body)
-{
-  std::map<std::array<long, 3>, Vec> result;
-  const NodalState &n = body.nodes();
-  for (std::size_t i = 0; i < n.n_owned; ++i)
-  {
-    std::array<long, 3> key;
-    for (int d = 0; d < 3; ++d)
-      key[d] = std::lround(n.reference_position[i][d] * 1e9);
-    result[key] = n.position[i];
-  }
-  return result;
-}
-
-/** Largest distance between nodes of the part and those of the whole. */
-double largest_difference(const Body &part, const Body &whole)
-{
-  const auto all = positions(whole);
-  double worst = 0.;
-  for (const auto &[key, x] : positions(part))
-    worst = std::max(worst, norm(x - all.at(key)));
-  return worst;
-}
-
 /** A copper bar on a wall that it sticks to: its end face is a plane of
     symmetry. */
 void taylor_bar(World &world, const unsigned int n_cuts)

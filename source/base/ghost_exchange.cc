@@ -12,6 +12,7 @@ GhostExchange::set_up(const std::vector<int> &ghost_owner,
 {
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
+  MPI_Comm_rank(communicator, &own_rank);
   std::vector<int> n_receive(n_ranks, 0), n_send(n_ranks);
   for (const int owner : ghost_owner)
     ++n_receive[owner];
@@ -56,14 +57,17 @@ void GhostExchange::transfer(const std::size_t item_size) const
   for (std::size_t p = 0; p < peer.size(); ++p)
   {
     const std::size_t n = receive_start[p + 1] - receive_start[p];
-    if (n > 0)
+    if (n > 0 && peer[p] == own_rank)
+      std::memcpy(&receive_buffer[receive_start[p] * item_size],
+                  &send_buffer[send_start[p] * item_size], n * item_size);
+    else if (n > 0)
       MPI_Irecv(&receive_buffer[receive_start[p] * item_size], n * item_size,
                 MPI_BYTE, peer[p], tag, communicator, &requests.emplace_back());
   }
   for (std::size_t p = 0; p < peer.size(); ++p)
   {
     const std::size_t n = send_start[p + 1] - send_start[p];
-    if (n > 0)
+    if (n > 0 && peer[p] != own_rank)
       MPI_Isend(&send_buffer[send_start[p] * item_size], n * item_size,
                 MPI_BYTE, peer[p], tag, communicator, &requests.emplace_back());
   }

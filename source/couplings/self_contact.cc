@@ -124,8 +124,10 @@ void SelfContact::find_pairs()
               (other.image & ~images_of_a))
             return;
           const double distance = std::sqrt(square);
-          if (a.body == b.body && other.image == 0 &&
-              bodies[a.body]->particles()->are_bonded(from.local, b.node))
+          const ParticleView &view = *bodies[a.body]->particles();
+          if (a.body == b.body &&
+              (other.image == 0 ? view.are_bonded(from.local, b.node)
+                                : view.are_bonded(from.local, b.node, other.x)))
             return;
           const bool are_continuous =
               a.body == b.body && from.is_continuous && to.is_continuous;

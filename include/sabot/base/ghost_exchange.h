@@ -25,9 +25,9 @@ namespace sabot
  *     exchange.update(nodes.velocity.data());
  *
  * Messages go to neighbors only, all at once, without waiting for any in
- * particular; each update is one message per pair of ranks and direction. With
- * one rank, or where no rank shares anything,
- * all functions return at once.
+ * particular; each update is one message per pair of ranks and direction. A
+ * ghost may be a copy of what its own rank has, which needs no message. Where
+ * no rank shares anything, all functions return at once.
  */
 class GhostExchange
 {
@@ -87,6 +87,7 @@ private:
 
   MPI_Comm communicator = MPI_COMM_SELF;
   std::size_t n_owned = 0;
+  int own_rank = -1;
   std::vector<int> peer; // ranks with which anything is exchanged
   std::vector<std::size_t> send_start, receive_start; // per peer
   std::vector<std::size_t> send_item;    // owned indices, peer by peer

@@ -21,6 +21,9 @@ namespace sabot
 struct NodalState
 {
   std::size_t n_owned = 0;
+  /** Of the ghosts the last ones: mirror images of particles beyond planes of
+      symmetry, which only their body knows. */
+  std::size_t n_images = 0;
   /** Number in the body, the same for every number of ranks. */
   std::vector<GlobalIndex> global_id; // [n_owned + n_ghost]
   /** X at the start of the run [m]; does not change. */

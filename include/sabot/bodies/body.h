@@ -216,6 +216,10 @@ public:
   virtual DebrisView debris() const = 0;
   /** Whether owned node @p i is still bonded to node @p j (global). */
   virtual bool are_bonded(const std::size_t i, const GlobalIndex j) const = 0;
+  /** The same of an image of @p j beyond planes of symmetry, which is at
+      @p place now [m]. */
+  virtual bool are_bonded(const std::size_t i, const GlobalIndex j,
+                          const Vec place) const = 0;
   /** Bonds of owned particles, each counted at both ends. */
   virtual std::size_t n_bonds() const = 0;
 };
@@ -412,12 +416,13 @@ protected:
    together with the particles that its cells turned into. Collective. */
 BodyMeasures measure_with_particles(const Body &body);
 
-/** The nodes here, as arrays of a state belong to them. */
+/** The nodes here, as arrays of a state belong to them; images are made anew.
+ */
 inline StateItems nodes_of_state(const Body &body)
 {
   const NodalState &nodes = body.nodes();
   return {"body " + body.name + "/nodes", nodes.global_id.data(), nodes.n_owned,
-          nodes.size()};
+          nodes.size() - nodes.n_images};
 }
 } // namespace sabot
 

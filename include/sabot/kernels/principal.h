@@ -171,6 +171,13 @@ inline Mat clamp_kernel(const Mat &h, const Mat &initial, const double low,
   const Mat stretch = h * inverse(initial);
   return clamp_kernel(stretch, vec(1., 1., 1.), low, high) * initial;
 }
+
+/** Square root of a symmetric positive matrix. */
+inline Mat square_root(const Mat &a)
+{
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(to_eigen(a));
+  return from_eigen(solver.operatorSqrt());
+}
 } // namespace sabot
 
 #endif

@@ -1,6 +1,8 @@
 // Neighbors of particles: search, compressed list, removal, ghosts' bonds.
 #include "sabot/bodies/spg/bond_list.h"
 
+#include "sabot/bodies/spg/mirror_planes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -182,6 +184,13 @@ BondList::ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids)
   return ghosts;
 }
 
+void BondList::reflect_in(const MirrorPlanes &planes,
+                          std::vector<std::uint8_t> its_planes)
+{
+  mirror = &planes;
+  on_planes = std::move(its_planes);
+}
+
 void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
                        const std::vector<int> &ghost_owner,
                        const GlobalIndex n_global, MPI_Comm comm)
@@ -214,7 +223,7 @@ void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
         ++old;
       if (old < last && id[neighbor[old]] == j)
         new_origin[bond] = old;
-      const std::size_t place = has_all ? j : of_owned(j);
+      const std::size_t place = has_all && j < n_global ? j : of_owned(j);
       new_neighbor[bond] = place < n_rows ? place : n_rows + of_ghost(j);
       ++bond;
     }
@@ -277,6 +286,16 @@ void BondList::reverse_owned()
   }
 }
 
+GlobalIndex BondList::number_from(const GlobalIndex j,
+                                  const std::size_t i) const
+{
+  const unsigned int symmetry = MirrorPlanes::symmetry_of(j);
+  return symmetry == 0 ? id[i]
+                       : MirrorPlanes::image(
+                             id[i], mirror->canonical(mirror->inverse(symmetry),
+                                                      on_planes[i]));
+}
+
 void BondList::reconnect()
 {
   reverse.assign(neighbor.size() + look_ahead, 0u);
@@ -284,6 +303,7 @@ void BondList::reconnect()
   reverse_owned();
   std::vector<int> owners;
   std::vector<GlobalIndex> keys;
+  std::vector<MirroredExchange::Turned> turned;
   for (std::size_t i = 0; i < n_owned && !owner_of_ghost.empty(); ++i)
     for (std::size_t b = begin(i); b < end(i); ++b)
     {
@@ -291,17 +311,32 @@ void BondList::reconnect()
       if (j < n_owned)
         continue;
       reverse[b] = neighbor.size() + owners.size();
+      const unsigned int symmetry = MirrorPlanes::symmetry_of(id[j]),
+                         axes =
+                             symmetry == 0 ? 0 : mirror->turned_axes(symmetry);
+      if (axes != 0)
+        turned.emplace_back(owners.size(), axes);
       owners.push_back(owner_of_ghost[j - n_owned]);
-      keys.push_back(id[j] * n_total + id[i]);
+      // Packed: there, seen from there, image.
+      const GlobalIndex there = MirrorPlanes::particle_of(id[j]),
+                        here = number_from(id[j], i);
+      keys.push_back((MirrorPlanes::symmetry_of(here) * n_total +
+                      MirrorPlanes::particle_of(here)) *
+                         n_total +
+                     there);
     }
-  exchange =
+  exchange = MirroredExchange(
       GhostExchange(communicator, neighbor.size(), owners, keys,
                     [&](const GlobalIndex key)
                     {
                       const auto i = std::lower_bound(
-                          id.begin(), id.begin() + n_owned, key / n_total);
-                      return find(i - id.begin(), key % n_total);
-                    });
+                          id.begin(), id.begin() + n_owned, key % n_total);
+                      const GlobalIndex other = key / n_total;
+                      return find(i - id.begin(),
+                                  MirrorPlanes::image(other % n_total,
+                                                      other / n_total));
+                    }),
+      neighbor.size(), std::move(turned));
 }
 
 bool BondList::remove(const std::vector<char> &dead)
@@ -343,7 +378,7 @@ bool BondList::remove(const std::vector<char> &dead)
   MPI_Allreduce(MPI_IN_PLACE, &has_changed, 1, MPI_INT, MPI_MAX, communicator);
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
-  if (n_ranks > 1 && has_changed)
+  if ((n_ranks > 1 || mirror != nullptr) && has_changed)
     reconnect();
   return has_changed != 0;
 }

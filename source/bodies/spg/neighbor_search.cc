@@ -4,8 +4,11 @@
 #include "sabot/base/gather_all.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/mirror_planes.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/spg_options.h"
+#include "sabot/bodies/spg/spg_parts.h"
+#include "sabot/kernels/mirrored.h"
 
 #include <algorithm>
 
@@ -17,22 +20,21 @@ namespace
 struct Item
 {
   GlobalIndex id;
-  GlobalIndex is_damaged;
+  std::int32_t is_damaged, planes;  // MirrorPlanes::planes_at()
   double position[3], to_kernel[9]; // x, H^-1
 };
 
-std::vector<Item> gather_items(const NodalState &nodes,
-                               const ParticleFields &fields,
-                               const BondFailure &failure,
-                               MPI_Comm communicator)
+std::vector<Item> gather_items(const SpgParts &body, MPI_Comm communicator)
 {
+  const NodalState &nodes = body.nodes;
   const std::size_t n = nodes.n_owned;
   std::vector<Item> mine(n);
   for (std::size_t i = 0; i < n; ++i)
   {
     mine[i].id = nodes.global_id[i];
-    mine[i].is_damaged = failure.n_failed[i] > 0;
-    const Mat inverse_kernel = inverse(fields.kernel[i]);
+    mine[i].is_damaged = body.failure.n_failed[i] > 0;
+    mine[i].planes = body.mirror.planes_at(nodes.reference_position[i]);
+    const Mat inverse_kernel = inverse(body.fields.kernel[i]);
     for (int d = 0; d < 3; ++d)
     {
       mine[i].position[d] = nodes.position[i][d];
@@ -44,6 +46,36 @@ std::vector<Item> gather_items(const NodalState &nodes,
   std::sort(all.begin(), all.end(),
             [](const Item &a, const Item &b) { return a.id < b.id; });
   return all;
+}
+
+/** Add images, behind the particles and by number, that may be closer than
+    @p reach [m] to any. */
+void add_images(const MirrorPlanes &mirror, const double reach,
+                std::vector<Item> &all)
+{
+  const std::size_t n = all.size();
+  for (std::size_t i = 0; i < n && mirror.any(); ++i)
+  {
+    const Vec x =
+        vec(all[i].position[0], all[i].position[1], all[i].position[2]);
+    mirror.for_images(x, all[i].planes, reach,
+                      [&](const unsigned int symmetry, const Vec there)
+                      {
+                        Item image = all[i];
+                        image.id = MirrorPlanes::image(all[i].id, symmetry);
+                        const Vec signs =
+                            mirror_signs(mirror.turned_axes(symmetry));
+                        for (int d = 0; d < 3; ++d)
+                        {
+                          image.position[d] = there[d];
+                          for (int e = 0; e < 3; ++e)
+                            image.to_kernel[3 * d + e] *= signs[d] * signs[e];
+                        }
+                        all.push_back(image);
+                      });
+  }
+  std::sort(all.begin() + n, all.end(),
+            [](const Item &a, const Item &b) { return a.id < b.id; });
 }
 
 bool is_in_kernel(const Item &center, const Vec dX, const bool cubic)
@@ -74,20 +106,20 @@ double kernel_reach(const NodalState &nodes, const ParticleFields &fields,
 }
 } // namespace
 
-BondList::Rows search_neighbors(const SpgOptions &options,
-                                const NodalState &nodes, const BondList &bonds,
-                                const ParticleFields &fields,
-                                const BondFailure &failure,
-                                const GlobalIndex n_global,
-                                MPI_Comm communicator)
+BondList::Rows search_neighbors(const SpgParts &body, MPI_Comm communicator)
 {
+  const SpgOptions &options = body.options;
+  const NodalState &nodes = body.nodes;
+  const BondList &bonds = body.bonds;
+  const BondFailure &failure = body.failure;
   const std::size_t n = nodes.n_owned;
-  const std::vector<Item> all =
-      gather_items(nodes, fields, failure, communicator);
-  const double reach = kernel_reach(nodes, fields, communicator);
-  std::vector<std::array<double, 3>> points(n_global);
-  for (GlobalIndex i = 0; i < n_global; ++i)
-    points[i] = {{all[i].position[0], all[i].position[1], all[i].position[2]}};
+  std::vector<Item> all = gather_items(body, communicator);
+  const double reach = kernel_reach(nodes, body.fields, communicator);
+  add_images(body.mirror, reach, all);
+  std::vector<std::array<double, 3>> points;
+  points.reserve(all.size());
+  for (const Item &item : all)
+    points.push_back({{item.position[0], item.position[1], item.position[2]}});
   const std::vector<GlobalIndex> owned(nodes.global_id.begin(),
                                        nodes.global_id.begin() + n);
   const BondList::Rows candidates =
@@ -113,11 +145,11 @@ BondList::Rows search_neighbors(const SpgOptions &options,
       const auto has_failed = [&]
       {
         const std::vector<GlobalIndex> &pairs = failure.failed_pairs[i];
-        return std::find(pairs.begin(), pairs.end(), j) != pairs.end();
+        return std::find(pairs.begin(), pairs.end(), there.id) != pairs.end();
       };
       if (keeps_bonds ? failure.n_failed[i] == 0 && !there.is_damaged
                       : !has_failed())
-        rows.add(j);
+        rows.add(there.id);
     }
     rows.sort_and_end_row();
   }

@@ -65,6 +65,7 @@ void ParticleConduction::heat_flow(std::vector<double> &temperature,
     a[3] = stiffness[i];
     coefficient[i] = a;
   }
+  cloud.exchange.make_whole(coefficient.data());
   cloud.exchange.update(coefficient.data());
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -78,6 +79,7 @@ void ParticleConduction::heat_flow(std::vector<double> &temperature,
     }
     flow[i] = heat;
   }
+  cloud.exchange.take_shares(flow.data());
 }
 
 void ParticleConduction::advance(const double dt, double *const temperature)
@@ -89,15 +91,21 @@ void ParticleConduction::advance(const double dt, double *const temperature)
       right(n), change(cloud.position.size());
   heat_flow(now, flow);
   const double scale = dt / largest_capacity;
+  std::vector<double> sums(n);
   for (std::size_t i = 0; i < n; ++i)
   {
-    right[i] = scale * flow[i];
     // Of the bonds' part of K, which is the larger one.
     double sum = 0.;
     for (std::size_t b = cloud.bonds.begin(i); b < cloud.bonds.end(i); ++b)
       sum += cloud.bonds.weight[b] *
-             (stiffness[i] + coefficient[cloud.bonds.neighbor[b]][3]);
-    diagonal[i] = capacity[i] / largest_capacity + scale * sum;
+             (coefficient[i][3] + coefficient[cloud.bonds.neighbor[b]][3]);
+    sums[i] = sum;
+  }
+  cloud.exchange.take_shares(sums.data());
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    right[i] = scale * flow[i];
+    diagonal[i] = capacity[i] / largest_capacity + scale * sums[i];
   }
   solve_conduction(
       diagonal, right,

@@ -1,6 +1,8 @@
 // Arrays of an SPG body's particles: start, room for ghosts, checkpoint.
 #include "sabot/bodies/spg/particle_fields.h"
 
+#include "sabot/bodies/spg/mirror_planes.h"
+
 namespace sabot
 {
 void ParticleFields::allocate(const std::vector<double> &volume,
@@ -28,6 +30,16 @@ void ParticleFields::extend(const std::size_t n_owned)
   if (stiffens)
     stiffening.resize(n_owned, 1.);
   own_force.resize(n_owned, Vec{});
+}
+
+void ParticleFields::note_planes(const MirrorPlanes &mirror,
+                                 const NodalState &nodes)
+{
+  if (!mirror.any())
+    return;
+  copies.clear();
+  for (const std::uint8_t on : mirror.planes_of(nodes))
+    copies.push_back(MirrorPlanes::copies(on));
 }
 
 void ParticleFields::resize(const std::size_t n_local)

@@ -7,6 +7,7 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
+#include "sabot/bodies/spg/image_rows.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/bodies/spg/spg_options.h"
@@ -165,6 +166,7 @@ void ParticleIntake::extend(const std::vector<GlobalIndex> &fresh)
     local_of_site[site[fresh[k]]] = before + k;
   }
   body.fields.extend(n);
+  body.fields.note_planes(body.mirror, nodes);
   body.points.extend(n);
   body.kernel.extend(body.kernel.initial_kernels_of(body.cloud, where));
   body.approximation.extend(n);
@@ -273,7 +275,6 @@ BondList::Rows ParticleIntake::grow()
     body.nodes.global_id[i] = numbers[k];
     fill_new(i, fresh[k]);
   }
-  // New ones have the highest numbers, so they follow what was there.
   const BondList::Rows with_new = rows_with(first_new);
   BondList::Rows rows;
   std::vector<char> has_grown(with_new.size(), 0);
@@ -282,7 +283,7 @@ BondList::Rows ParticleIntake::grow()
     if (i < before)
       rows.add(old_rows[i].begin(), old_rows[i].end());
     rows.add(with_new[i].begin(), with_new[i].end());
-    rows.end_row();
+    rows.sort_and_end_row();
     has_grown[i] = i >= before || with_new[i].size() > 0;
   }
   body.approximation.renew_intact(has_grown);
@@ -299,17 +300,15 @@ BondList::Rows ParticleIntake::rows_with(const GlobalIndex first_new) const
   const std::vector<GlobalIndex> owned(body.nodes.global_id.begin(),
                                        body.nodes.global_id.begin() +
                                            body.nodes.n_owned);
-  const BondList::Rows all = BondList::rows_in_kernels(
+  const BondList::Rows all = rows_with_images(
       points, body.kernel.initial_kernels_of(body.cloud, place),
-      body.options.has_tensor_kernel(), owned);
+      body.options.has_tensor_kernel(), body.mirror, owned);
   BondList::Rows rows;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    const BondList::Rows::Row row = all[i];
-    rows.add(owned[i] < first_new
-                 ? std::lower_bound(row.begin(), row.end(), first_new)
-                 : row.begin(),
-             row.end());
+    for (const GlobalIndex j : all[i])
+      if (owned[i] >= first_new || MirrorPlanes::particle_of(j) >= first_new)
+        rows.add(j);
     rows.end_row();
   }
   return rows;

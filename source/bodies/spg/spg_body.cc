@@ -4,6 +4,7 @@
 
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
+#include "sabot/bodies/spg/image_rows.h"
 #include "sabot/bodies/spg/neighbor_search.h"
 #include "sabot/bodies/spg/spg_mass_scaling.h"
 
@@ -12,6 +13,19 @@
 
 namespace sabot
 {
+namespace
+{
+MirrorPlanes images_of(const ParticleCloud &cloud,
+                       const ParticleSurface &surface)
+{
+  // As for fragments: particles are a spacing apart.
+  constexpr double within = 1e-3;
+  return {surface.planes(), cloud.position,
+          within *
+              *std::min_element(cloud.spacing.begin(), cloud.spacing.end())};
+}
+} // namespace
+
 SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                  std::shared_ptr<const Material> material,
                  const SpgOptions &options,
@@ -20,22 +34,13 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       n_global(options.grows ? 0 : this->cloud.position.size()),
       points(std::move(material)), kernel(options, this->cloud),
       approximation(options), surface(this->cloud, options, "Bodies/" + name),
+      mirror(images_of(this->cloud, surface)),
       stabilization(options.stabilization()), failure(options),
-      residual_strength(options.residual_strength()), parts{this->name,
-                                                            this->options,
-                                                            nodal_state,
-                                                            node_exchange,
-                                                            bonds,
-                                                            fields,
-                                                            points,
-                                                            kernel,
-                                                            approximation,
-                                                            failure,
-                                                            *residual_strength,
-                                                            stable,
-                                                            constraints,
-                                                            work,
-                                                            watch},
+      residual_strength(options.residual_strength()),
+      parts{this->name, this->options, nodal_state, node_exchange,
+            mirror,     bonds,         fields,      points,
+            kernel,     approximation, failure,     *residual_strength,
+            stable,     constraints,   work,        watch},
       views(parts, surface, *stabilization, rank_of, communicator)
 {
   if (options.grows)
@@ -58,6 +63,7 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
                               rank_of,
                               node_owner,
                               n_global,
+                              mirror,
                               communicator,
                               [this](const unsigned int step)
                               { update_kernel_and_forces(step, false); }});
@@ -111,8 +117,8 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   BondList::Rows rows;
   try
   {
-    rows = BondList::rows_in_kernels(cloud.position, kernels,
-                                     options.has_tensor_kernel(), ids);
+    rows = rows_with_images(cloud.position, kernels,
+                            options.has_tensor_kernel(), mirror, ids);
   }
   catch (const std::invalid_argument &e)
   {
@@ -131,6 +137,7 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
   else
     cloud = ParticleCloud();
   fields.allocate(volume, law.stiffens());
+  fields.note_planes(mirror, nodal_state);
   // Before the calibration, which takes the most memory of all.
   std::vector<double>().swap(volume);
   std::vector<GlobalIndex>().swap(ids);
@@ -162,23 +169,24 @@ void SpgBody::renumber(BondList::Rows rows)
   std::vector<GlobalIndex> ids(nodal_state.global_id.begin(),
                                nodal_state.global_id.begin() + n);
   std::vector<GlobalIndex> ghosts;
-  if (n < static_cast<std::size_t>(n_global))
+  if (n < static_cast<std::size_t>(n_global) || mirror.any())
     ghosts = BondList::ghosts_of(rows, ids);
   std::vector<int> ghost_owner;
   for (const GlobalIndex g : ghosts)
-    ghost_owner.push_back(rank_of[g]);
-  node_exchange = GhostExchange(
-      communicator, n, ghost_owner, ghosts,
-      [&](const GlobalIndex key)
-      { return std::lower_bound(ids.begin(), ids.end(), key) - ids.begin(); });
+    ghost_owner.push_back(rank_of[MirrorPlanes::particle_of(g)]);
+  node_exchange =
+      ParticleExchange(mirror, nodal_state, ghosts, ghost_owner, communicator);
   ids.insert(ids.end(), ghosts.begin(), ghosts.end());
   nodal_state.resize(ids.size());
   nodal_state.global_id = ids;
-  node_exchange.update(nodal_state.reference_position.data());
-  node_exchange.update(nodal_state.position.data());
+  nodal_state.n_images = node_exchange.n_images();
+  node_exchange.update_positions(nodal_state.reference_position.data());
+  node_exchange.update_positions(nodal_state.position.data());
   node_exchange.update(nodal_state.velocity.data());
   node_exchange.update(nodal_state.lumped_mass.data());
   node_exchange.update(nodal_state.inertia.data());
+  if (mirror.any())
+    bonds.reflect_in(mirror, mirror.planes_of(nodal_state));
   bonds.connect(std::move(rows), ids, ghost_owner, n_global, communicator);
   fields.resize(ids.size());
   failure.renew_ghosts(node_exchange, ids.size());
@@ -189,7 +197,7 @@ void SpgBody::renumber(BondList::Rows rows)
 
 void SpgBody::update_ghosts()
 {
-  node_exchange.update(nodal_state.position.data());
+  node_exchange.update_positions(nodal_state.position.data());
 }
 
 void SpgBody::compute_forces(const double /*time*/, const double dt)
@@ -301,14 +309,13 @@ void SpgBody::update_kernel(const unsigned int step, const bool only_cracks)
   bonds.settle();
   if (searches)
   {
-    renumber(search_neighbors(options, nodal_state, bonds, fields, failure,
-                              n_global, communicator));
+    renumber(search_neighbors(parts, communicator));
     node_exchange.update(fields.kernel.data());
   }
   if (renews)
   {
     renumber(renew_crumbled_neighbors(nodal_state, bonds, failure, kernel,
-                                      communicator));
+                                      mirror, communicator));
     failure.forget_marks();
     node_exchange.update(fields.kernel.data());
   }

@@ -256,6 +256,19 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
   stabilization->visit_bonds(visitor, parts, rows);
 }
 
+void SpgBody::renew_images()
+{
+  for (AlignedVector<Vec> *const places :
+       {&nodal_state.position, &fields.kernel_reference_position})
+    node_exchange.update_positions(places->data());
+  node_exchange.update(nodal_state.velocity.data());
+  node_exchange.update(nodal_state.lumped_mass.data());
+  node_exchange.update(nodal_state.inertia.data());
+  node_exchange.update(fields.kernel.data());
+  failure.renew_ghosts(node_exchange, nodal_state.size());
+  stabilization->renew_images(parts);
+}
+
 void SpgBody::visit_state(StateVisitor &visitor)
 {
   if (intake)
@@ -286,5 +299,7 @@ void SpgBody::visit_state(StateVisitor &visitor)
     heat.set_up(parts, failure, communicator);
   heat.visit_state(visitor);
   visit_scaling(visitor);
+  if (visitor.is_restoring() && mirror.any())
+    renew_images();
 }
 } // namespace sabot

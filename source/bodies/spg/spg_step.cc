@@ -21,6 +21,7 @@ MotionViews motion_views(SpgParts &body, const double dt)
           body.approximation.moment_inverse.data(),
           fields.reference_volume.data(),
           fields.kernel_reference_volume.data(),
+          fields.copies.empty() ? nullptr : fields.copies.data(),
           body.stable_step.data(),
           fields.stiffening.empty() ? nullptr : fields.stiffening.data(),
           body.points.viscous_pressure.data(),

@@ -7,6 +7,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/fragments.h"
+#include "sabot/bodies/spg/mirror_planes.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stable_step.h"
@@ -59,6 +60,24 @@ bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j) const
   return false;
 }
 
+bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j,
+                          const Vec place) const
+{
+  constexpr double round_off = 1e-6;
+  const double tolerance = round_off * body.kernel.mean_spacing();
+  const BondList &bonds = body.bonds;
+  const NodalState &nodes = body.nodes;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+  {
+    const std::uint32_t other = bonds.neighbor[b];
+    if (MirrorPlanes::symmetry_of(nodes.global_id[other]) != 0 &&
+        MirrorPlanes::particle_of(nodes.global_id[other]) == j &&
+        norm(nodes.position[other] - place) < tolerance)
+      return body.failure.is_cohesive(i, other);
+  }
+  return false;
+}
+
 std::size_t SpgViews::n_bonds() const
 {
   std::size_t n = 0;
@@ -76,8 +95,10 @@ std::vector<GlobalIndex> SpgViews::piece_labels() const
 std::vector<Fragment> SpgViews::connected_pieces() const
 {
   constexpr double within = 1e-3; // of a spacing; particles are one apart
-  return find_fragments(body.nodes, piece_labels(), surface.planes(),
-                        within * body.kernel.mean_spacing(), communicator);
+  return find_fragments(
+      body.nodes, piece_labels(),
+      planes_crossed(body.nodes, body.bonds, body.failure, surface.planes()),
+      surface.planes(), within * body.kernel.mean_spacing(), communicator);
 }
 
 void SpgViews::list_memory(MemoryTable &table) const

@@ -1,9 +1,9 @@
 // The stable step of particles: a bound by rows, and by how much it is too
 // short.
 #include "sabot/bodies/spg/stable_step.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 
 #include "sabot/base/exact_sum.h"
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
@@ -67,7 +67,9 @@ void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form,
   const Material &law = body.points.law();
   const double c = law.sound_speed();
   const std::vector<double> rows = elastic_row_bounds(body, wanted);
-  const std::vector<double> mass = moving_masses(nodes);
+  // Rows are those of whole particles.
+  std::vector<double> mass = moving_masses(nodes);
+  body.exchange.make_whole(mass.data());
   std::vector<double> springs(nodes.n_owned, 0.);
   form.add_row_sums(body, springs);
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
@@ -194,6 +196,7 @@ double largest_frequency(const SpgParts &body, Stabilization &form,
     return sum.value();
   };
   start_lanczos(nodes, motion, root);
+  body.exchange.hold(motion.data());
   const double size = std::sqrt(
       product([&](const std::size_t i) { return dot(motion[i], motion[i]); }));
   for (std::size_t i = 0; i < n_owned; ++i)
@@ -207,6 +210,7 @@ double largest_frequency(const SpgParts &body, Stabilization &form,
   {
     body.exchange.update(motion.data());
     form.apply_linearized(body, motion, next);
+    body.exchange.hold(next.data());
     for (std::size_t i = 0; i < n_owned; ++i)
       next[i] *= -scale * root[i];
     const double alpha =

@@ -1,8 +1,8 @@
 // Bounds of the elastic stiffness that a particle's motion meets, for the
 // stable step.
 #include "sabot/bodies/spg/stiffness_bound.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
@@ -225,8 +225,11 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
   const AlignedVector<double> &l = G.find_largest();
   for (std::size_t i = 0; i < n; ++i)
     elements.shear[i] *= l[i];
-  body.exchange.update(elements.bulk.data());
-  body.exchange.update(elements.shear.data());
+  for (std::vector<double> *const values : {&elements.bulk, &elements.shear})
+  {
+    body.exchange.make_whole(values->data());
+    body.exchange.update(values->data());
+  }
   if (!body.approximation.stores_gradients())
   {
     const AlignedVector<Mat> &owned = body.approximation.moment_inverse;

@@ -1,11 +1,11 @@
 #ifndef sabot_bodies_spg_bond_list_h
 #define sabot_bodies_spg_bond_list_h
 
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/memory_table.h"
 #include "sabot/base/state_visitor.h"
 #include "sabot/base/types.h"
 #include "sabot/bodies/spg/bond_rows.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/kernels/vec.h"
 
 #include <algorithm>
@@ -15,6 +15,8 @@
 
 namespace sabot
 {
+class MirrorPlanes;
+
 /**
  * The bonds of the owned particles as one compressed list, each row sorted by
  * the global number of the neighbor. A bond is stored from both of its ends;
@@ -75,6 +77,13 @@ public:
       Local. */
   static std::vector<GlobalIndex>
   ghosts_of(const Rows &rows, const std::vector<GlobalIndex> &owned_ids);
+
+  /** From now on neighbors may be mirror images, numbered by @p planes, which
+      outlive this; they count as ghosts, also where this rank has the particle
+      itself. @p on_planes: of the owned particles, MirrorPlanes::planes_at().
+      Local. */
+  void reflect_in(const MirrorPlanes &planes,
+                  std::vector<std::uint8_t> on_planes);
 
   /** Take over @p rows when ghosts are numbered; they are let go on the way.
       @p global_id of all local
@@ -198,6 +207,9 @@ private:
   /** reverse[] of bonds between owned particles. Throws std::logic_error where
       the two ends do not agree. */
   void reverse_owned();
+  /** Number by which ghost or image @p j knows its neighbor that is owned
+      particle @p i. */
+  GlobalIndex number_from(const GlobalIndex j, const std::size_t i) const;
   /** Bond of owned particle i to the neighbor with this global number.
       Throws std::logic_error where there is none: the two ends must agree. */
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;
@@ -217,7 +229,9 @@ private:
   GlobalIndex n_total = 0;
   std::size_t n_owned = 0;
   MPI_Comm communicator = MPI_COMM_SELF;
-  GhostExchange exchange;
+  MirroredExchange exchange;
+  const MirrorPlanes *mirror = nullptr; // null: there are no images
+  std::vector<std::uint8_t> on_planes;  // of owned particles
 };
 } // namespace sabot
 

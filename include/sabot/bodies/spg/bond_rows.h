@@ -3,6 +3,7 @@
 
 #include "sabot/base/types.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -75,10 +76,12 @@ public:
   {
     if (n == 0 || j < numbers[0] || j > numbers[n - 1])
       return n;
-    std::size_t k = first[(j - numbers[0]) >> shift];
-    while (numbers[k] < j)
-      ++k;
-    return numbers[k] == j ? k : n;
+    const std::size_t entry = (j - numbers[0]) >> shift;
+    // Images of a few particles may share one entry.
+    const GlobalIndex *const at = std::lower_bound(
+        numbers + first[entry],
+        entry + 1 < first.size() ? numbers + first[entry + 1] : numbers + n, j);
+    return at != numbers + n && *at == j ? at - numbers : n;
   }
 
 private:

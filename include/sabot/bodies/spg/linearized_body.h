@@ -1,11 +1,11 @@
 #ifndef sabot_bodies_spg_linearized_body_h
 #define sabot_bodies_spg_linearized_body_h
 
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/spg_parts.h"
 #include "sabot/bodies/spg/stiffness_bound.h"
@@ -89,9 +89,13 @@ void apply_linearized_moments(const SpgParts &body, Form &form,
       kL[i].row[0][3] = k;
     }
   }
+  body.exchange.make_whole(Q);
   body.exchange.update(Q);
   if constexpr (Form::has_bond_forces)
+  {
+    body.exchange.make_whole(kL.data());
     body.exchange.update(kL.data());
+  }
   for (std::size_t i = 0; i < n; ++i)
   {
     Vec f = {};
@@ -112,7 +116,26 @@ void apply_linearized_moments(const SpgParts &body, Form &form,
     f[3] = 0.; // of the stiffness
     force[i] = f;
   }
+  body.exchange.take_shares(force.data());
   form.add_linearized(body, motion, force);
+}
+
+/** What a particle does to its neighbors with stored gradients. */
+struct LinearizedParticle
+{
+  Mat moment, slope; // sum over bonds of what multiplies g; grad of motion
+  double stiffness;
+};
+inline void mirror(LinearizedParticle &p, const unsigned int axes)
+{
+  mirror(p.moment, axes);
+  mirror(p.slope, axes);
+}
+/** Of a share to the whole: the motion is the same. */
+inline LinearizedParticle operator*(const double copies,
+                                    const LinearizedParticle &p)
+{
+  return {copies * p.moment, p.slope, copies * p.stiffness};
 }
 
 /**
@@ -136,6 +159,9 @@ void apply_linearized_moments(const SpgParts &body, Form &form,
  * which is the stiffest; only failed metal that gapes has next to none of it
  * (stiffness_share()). [N] for a motion in m, [N/s] for one in m/s.
  *
+ * Of particles on planes of symmetry force and K are those of the model's
+ * share; the motion must not leave the planes, else K is not symmetric.
+ *
  * Ghosts: the motion's must be up to date; moments, slopes and stiffnesses of
  * this rank's particles are exchanged once in between. Failed bonds are not in
  * the list and thus not in K. Neighbors add up in global order: the result has
@@ -157,12 +183,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
   const Vec *const X = body.fields.kernel_reference_position.data();
   const double *const volume = body.fields.kernel_reference_volume.data();
   const ElasticResponse stress(body.points.law());
-  struct Particle
-  {
-    Mat moment, slope; // sum over bonds of what multiplies g; grad of motion
-    double stiffness;
-  };
-  AlignedVector<Particle> particle(body.nodes.size());
+  AlignedVector<LinearizedParticle> particle(body.nodes.size());
   const Vec *const g = functions.shape_gradient.data();
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -185,6 +206,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
       }
     particle[i] = {moment, L, stiffness};
   }
+  body.exchange.make_whole(particle.data());
   body.exchange.update(particle.data());
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -203,6 +225,7 @@ void apply_linearized_body(const SpgParts &body, Form &form,
     }
     force[i] = f;
   }
+  body.exchange.take_shares(force.data());
   form.add_linearized(body, motion, force);
 }
 } // namespace sabot

@@ -37,6 +37,7 @@ struct MotionViews
   const Mat *moment_inverse;             // M^-1, for least squares [1/m^2]
   const double *reference_volume;        // V_0 [m^3]
   const double *kernel_reference_volume; // V_ref [m^3]
+  const double *copies; // of them that make a whole; null: all are wholes
   /** With the calibration factor; what the motion adds comes in
       follow_motion(). */
   const double *stable_step; // at the last kernel update [s]
@@ -265,7 +266,10 @@ inline void find_viscosity_and_step(const MotionViews &in,
   Pack q = gather_numbers(in.viscous_pressure, particle);
   if (is_step(dt))
   {
-    const Pack h = pack_min(pack_cbrt(volume), 2. * c * step),
+    const Pack whole = in.copies == nullptr
+                           ? volume
+                           : gather_numbers(in.copies, particle) * volume;
+    const Pack h = pack_min(pack_cbrt(whole), 2. * c * step),
                rate = (l.m[0][0] + l.m[1][1] + l.m[2][2]) / dt,
                closing = pack_max(-rate, Pack{}),
                density = in.density *
@@ -340,7 +344,9 @@ inline Pack follow_four(const MotionViews &in,
  *   l = (F - F_old) [(F + F_old)/2]^-1,  d eps = sym l,  spin = skew l,
  *   J = det F V_ref/V_0,  V/2 = V_ref (J_inc + J_inc,old)/4  [m^3],
  *   q = rho h (c1 c |d| + c2 h d^2) where d = tr l/dt < 0    [Pa],
- *   h = min( (V_ref J_inc)^(1/3), 2 c dt_stable )            [m].
+ *   h = min( (V_ref J_inc)^(1/3), 2 c dt_stable )            [m],
+ *
+ * V_ref in h that of the whole particle, on planes of symmetry, too.
  *
  * The step [s] is the one of the last kernel update, as stiff as now, over 1 +
  * c1 (in compression) + h |l|/(c dt): the rate of deformation will have made

@@ -7,10 +7,7 @@
 
 namespace sabot
 {
-class BondFailure;
-struct NodalState;
-struct ParticleFields;
-struct SpgOptions;
+struct SpgParts;
 
 /**
  * Rows of neighbors that the kernels of now reach, by the body's policy
@@ -20,17 +17,13 @@ struct SpgOptions;
  * neighbors may come from anywhere. Collective.
  *
  * Rows [n_owned] of global numbers, ascending, for SpgBody::renumber().
- * Positions are the present ones, kernels those of owned particles in fields.
+ * Images beyond planes of symmetry are neighbors like others. Positions are the
+ * present ones, kernels those of owned particles in fields.
  * One all-gather of about a hundred bytes per particle of the body, and buckets
  * of the longest semi-axis of any kernel [m]: to be done at kernel updates
  * only.
  */
-BondList::Rows search_neighbors(const SpgOptions &options,
-                                const NodalState &nodes, const BondList &bonds,
-                                const ParticleFields &fields,
-                                const BondFailure &failure,
-                                const GlobalIndex n_global,
-                                MPI_Comm communicator);
+BondList::Rows search_neighbors(const SpgParts &body, MPI_Comm communicator);
 } // namespace sabot
 
 #endif

@@ -1,9 +1,9 @@
 #ifndef sabot_bodies_spg_particle_conduction_h
 #define sabot_bodies_spg_particle_conduction_h
 
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 
 #include <vector>
 
@@ -37,7 +37,7 @@ public:
   struct Cloud
   {
     const BondList &bonds;
-    const GhostExchange &exchange;
+    const ParticleExchange &exchange;
     const AlignedVector<Vec> &position; // X, with ghosts
     const AlignedVector<Mat> &moment_inverse;
     const std::vector<double> &volume; // V

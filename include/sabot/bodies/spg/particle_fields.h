@@ -11,6 +11,9 @@
 
 namespace sabot
 {
+class MirrorPlanes;
+struct NodalState;
+
 /**
  * What an SPG body knows of its particles beside their motion (NodalState) and
  * their material (MaterialPoints), one array per quantity. The configuration of
@@ -51,6 +54,10 @@ struct ParticleFields
       stiffens. */
   std::vector<double> stiffening;
   AlignedVector<Vec> own_force; // [N], without what couplings added
+  /** Volume of the whole particle over that which the model has of it: 2 for
+      each plane of symmetry that it lies on; empty of bodies whose particles
+      have no images (MirrorPlanes). */
+  std::vector<double> copies;
   /** Stable step of each particle, the least of the evaluations since the last
       step; empty unless mass scaling asks for it [s]. */
   std::vector<double> own_step;
@@ -62,6 +69,8 @@ struct ParticleFields
   /** Room for @p n_owned particles, more than there are; ghosts are dropped.
       New ones are undeformed, without volume. */
   void extend(const std::size_t n_owned);
+  /** copies of the owned ones of @p nodes. */
+  void note_planes(const MirrorPlanes &mirror, const NodalState &nodes);
   /** Room for ghosts: @p n_local particles, owned ones included. New entries
       of stress are zero, of kernels and positions at the last update the
       caller's to fill. */
@@ -89,6 +98,7 @@ struct ParticleFields
     table.add("stiffening", stiffening);
     table.add("own forces", own_force);
     table.add("own steps", own_step);
+    table.add("shares on planes of symmetry", copies);
   }
 
 private:

@@ -18,6 +18,7 @@ namespace sabot
 class BondFailure;
 class LagrangianKernel;
 class MaterialPoints;
+class MirrorPlanes;
 class ParticleApproximation;
 class ResidualStrength;
 class SpgStableStep;
@@ -65,6 +66,7 @@ public:
     VelocityConstraints &constraints;
     std::vector<int> &rank_of, &node_owner; // of every particle
     GlobalIndex &n_global;
+    const MirrorPlanes &mirror;
     MPI_Comm &communicator;
     /** A kernel update with the forces of now, which calls grow(). */
     const std::function<void(const unsigned int step)> update;

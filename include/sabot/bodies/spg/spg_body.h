@@ -2,13 +2,14 @@
 #define sabot_bodies_spg_spg_body_h
 
 #include "sabot/base/error.h"
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/bodies/scaled_body.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/mirror_planes.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/particle_heat.h"
 #include "sabot/bodies/spg/particle_intake.h"
@@ -198,6 +199,9 @@ private:
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */
   void evaluate_forces(const double dt);
+  /** What images have of their particles, from a checkpoint, which has none of
+      them. Collective. */
+  void renew_images();
   /** Restored rows lead to new ghosts. Collective. */
   void visit_bonds(StateVisitor &visitor);
 
@@ -206,7 +210,7 @@ private:
   MPI_Comm communicator = MPI_COMM_SELF;
   GlobalIndex n_global;
   std::vector<int> rank_of; // of every particle, for new neighbors
-  GhostExchange node_exchange;
+  ParticleExchange node_exchange;
   BondList bonds;
   VelocityConstraints constraints; // symmetry planes, clamped faces
   ParticleFields fields;
@@ -214,6 +218,7 @@ private:
   LagrangianKernel kernel;
   ParticleApproximation approximation;
   ParticleSurface surface;
+  const MirrorPlanes mirror;
   std::unique_ptr<Stabilization> stabilization;
   BondFailure failure;
   std::unique_ptr<ResidualStrength> residual_strength;

@@ -14,8 +14,9 @@ namespace sabot
 class ParticleApproximation;
 class BondFailure;
 class BondList;
-class GhostExchange;
+class ParticleExchange;
 class LagrangianKernel;
+class MirrorPlanes;
 class ResidualStrength;
 class SpgStableStep;
 class VelocityConstraints;
@@ -108,7 +109,8 @@ struct SpgParts
       velocities, masses; forces of owned nodes are the step's result.
       Ghosts' velocities and masses are those of the last renumbering only. */
   NodalState &nodes;
-  const GhostExchange &exchange; // of particles
+  const ParticleExchange &exchange; // of particles
+  const MirrorPlanes &mirror;       // planes of symmetry with images
   BondList &bonds;        // neighbors of owned particles, symmetric weights
   ParticleFields &fields; // deformation and kernels
   MaterialPoints &points; // stress and state, one point a particle

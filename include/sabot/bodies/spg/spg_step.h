@@ -1,11 +1,11 @@
 #ifndef sabot_bodies_spg_spg_step_h
 #define sabot_bodies_spg_spg_step_h
 
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/motion_kernels.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/spg_parts.h"
 
@@ -175,7 +175,8 @@ inline void gather_forces(const ForceViews &in, const Form &form,
  *   Vec own_bond_forces(i, k);       // on its own particle, after add_stress
  *   auto bond_forces(bonds);         // functor of what the neighbor's end of a
  *                                    // bond takes off the force
- *   void add_forces(body);           // what is not a sum over one ring
+ *   void add_forces(body);           // what is not a sum over one ring, on
+ *                                    // the model's shares of particles
  *
  * Collective.
  *
@@ -208,7 +209,9 @@ void spg_step(SpgParts &body, Form &form, const double dt)
     // Stress -> what it does to the neighbors.
     generalize_stress<stored_gradients>(range, work, body, form);
   }
-  // Neighbors on other ranks.
+  // Neighbors on other ranks and beyond planes of symmetry, who see wholes.
+  body.exchange.make_whole(body.fields.generalized_stress.data());
+  body.exchange.make_whole(body.nodes.force.data());
   body.exchange.update(body.fields.generalized_stress.data());
   form.exchange(body);
   // Every particle gathers its own force.
@@ -217,6 +220,7 @@ void spg_step(SpgParts &body, Form &form, const double dt)
                  body.fields.generalized_stress.data(),
                  body.approximation.shape_gradient.data(), n},
       form, body.nodes.force.data());
+  body.exchange.take_shares(body.nodes.force.data());
   form.add_forces(body);
 }
 

@@ -50,6 +50,8 @@ public:
   DebrisView debris() const override;
   /** i local and owned, j global; a walk along the row of i. */
   bool are_bonded(const std::size_t i, const GlobalIndex j) const override;
+  bool are_bonded(const std::size_t i, const GlobalIndex j,
+                  const Vec place) const override;
   /** Of this rank, every bond at each owned end. */
   std::size_t n_bonds() const override;
   /** By piece_labels(); collective. */

@@ -1,28 +1,19 @@
 // Convex (generalized meshfree) functions: gradients per bond, second
 // derivatives, masses.
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/kernels/convex_functions.h"
-#include "sabot/kernels/eigen.h"
 #include "sabot/kernels/kernel_function.h"
-
-#include <Eigen/Eigenvalues>
+#include "sabot/kernels/principal.h"
 
 namespace sabot
 {
 namespace
 {
-/** Square root of a symmetric positive matrix. */
-Mat square_root(const Mat &a)
-{
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(to_eigen(a));
-  return from_eigen(solver.operatorSqrt());
-}
-
 /** The functions of the neighbors of a particle, itself first. */
 template <typename Kernel>
 class Neighborhood
@@ -169,10 +160,11 @@ void ParticleApproximation::find_gradients_with(
 
 void ParticleApproximation::set_convex_masses(NodalState &nodes,
                                               const BondList &bonds,
-                                              const GhostExchange &exchange)
+                                              const ParticleExchange &exchange)
 {
   has_masses = true;
   std::vector<double> nodal_mass(nodes.lumped_mass);
+  exchange.make_whole(nodal_mass.data());
   exchange.update(nodal_mass.data());
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
@@ -181,5 +173,7 @@ void ParticleApproximation::set_convex_masses(NodalState &nodes,
       mass += nodal_mass[bonds.neighbor[b]] * shape_value[bonds.reverse[b]];
     nodes.lumped_mass[i] = nodes.inertia[i] = mass;
   }
+  exchange.take_shares(nodes.lumped_mass.data());
+  exchange.take_shares(nodes.inertia.data());
 }
 } // namespace sabot

@@ -1,7 +1,7 @@
 // Kernels that move with the material, and when they are due.
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 
-#include "sabot/base/ghost_exchange.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/kernels/kernel_function.h"
 #include "sabot/kernels/principal.h"
@@ -17,6 +17,33 @@ namespace
     moves with the material keeps its weights under any uniform deformation;
     the limits only catch degenerate particles. */
 constexpr double least_stretch = 0.15, most_stretch = 6.;
+
+/** Shape S of a particle of a mesh, of which the cloud knows the cells on the
+    model's side of planes of symmetry only: S^2 without what links directions
+    along and across a plane, which images cancel. */
+Mat shape_with_images(const ParticleCloud &cloud, const std::size_t i,
+                      const std::uint32_t symmetry_faces)
+{
+  const Mat &S = cloud.shape[i];
+  unsigned int axes = 0;
+  for (unsigned int face = 0; face < cloud.face_axis.size(); ++face)
+    if (cloud.on_face[i] & symmetry_faces & 1u << face)
+      axes |= 1u << *cloud.face_axis[face];
+  if (axes == 0)
+    return S;
+  constexpr double round_off = 1e-12;
+  Mat square = S * transpose(S);
+  bool has_links = false;
+  for (int d = 0; d < 3; ++d)
+    for (int e = 0; e < 3; ++e)
+      if (d != e && ((axes >> d | axes >> e) & 1))
+      {
+        has_links =
+            has_links || std::abs(square(d, e)) > round_off * trace(square);
+        square.row[d][e] = 0.;
+      }
+  return has_links ? square_root(square) : S;
+}
 } // namespace
 
 LagrangianKernel::LagrangianKernel(const SpgOptions &options,
@@ -26,14 +53,17 @@ LagrangianKernel::LagrangianKernel(const SpgOptions &options,
       normalized_support(options.normalized_support),
       is_regular(cloud.shape.empty()), interval(options.kernel_update_interval),
       least_strain(options.kernel_update_strain),
-      largest_stretch(options.kernel_update_change)
+      largest_stretch(options.kernel_update_change),
+      symmetry_faces(options.symmetry_faces)
 {
 }
 
 AlignedVector<Mat>
 LagrangianKernel::initial_kernels(const ParticleCloud &cloud) const
 {
-  AlignedVector<Mat> kernels = cloud.shape;
+  AlignedVector<Mat> kernels;
+  for (std::size_t i = 0; i < cloud.shape.size(); ++i)
+    kernels.push_back(shape_with_images(cloud, i, symmetry_faces));
   if (is_regular)
     kernels.push_back(Mat{
         {vec(spacing[0], 0, 0), vec(0, spacing[1], 0), vec(0, 0, spacing[2])}});
@@ -56,7 +86,8 @@ LagrangianKernel::initial_kernels_of(const ParticleCloud &cloud,
 {
   AlignedVector<Mat> kernels;
   for (const GlobalIndex i : some)
-    kernels.push_back(normalized_support * cloud.shape[i]);
+    kernels.push_back(normalized_support *
+                      shape_with_images(cloud, i, symmetry_faces));
   return kernels;
 }
 
@@ -71,7 +102,7 @@ Mat LagrangianKernel::carried_kernel(const std::size_t i, const Mat &F) const
 }
 
 void LagrangianKernel::start(ParticleFields &fields,
-                             const GhostExchange &exchange) const
+                             const ParticleExchange &exchange) const
 {
   const double support = normalized_support;
   for (Mat &H : fields.kernel)

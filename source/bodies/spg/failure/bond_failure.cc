@@ -1,12 +1,12 @@
 // Bonds that fail: found once, removed once, counted once.
 #include "sabot/bodies/spg/failure/bond_failure.h"
 
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/material_points.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/bodies/spg/particle_conduction.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/spg_options.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ bool BondFailure::find_measure(const BondList &bonds,
 bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
                        const ParticleFields &fields,
                        const MaterialPoints &points,
-                       const GhostExchange &exchange, MPI_Comm communicator)
+                       const ParticleExchange &exchange, MPI_Comm communicator)
 {
   if (!criterion->can_be_met())
     return false;
@@ -113,7 +113,7 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
 }
 
 void BondFailure::count(const NodalState &nodes, const BondList &bonds,
-                        const GhostExchange &exchange)
+                        const ParticleExchange &exchange)
 {
   if (!criterion->can_be_met())
     return;
@@ -164,7 +164,7 @@ bool BondFailure::renews_crumbled(MPI_Comm communicator) const
   return any != 0;
 }
 
-void BondFailure::renew_ghosts(const GhostExchange &exchange,
+void BondFailure::renew_ghosts(const ParticleExchange &exchange,
                                const std::size_t n_local)
 {
   crumbled.resize(n_local);

@@ -5,6 +5,7 @@
 #include "sabot/base/send_some.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/mirror_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,16 +60,39 @@ std::vector<CrumbBox> boxes_of_ranks(const std::vector<Crumb> &mine,
   return boxes;
 }
 
-/** This rank's and those of others that may be closer than @p reach [m] to one
-    of them, by number. */
+/** Images of the owned crumbs that may be closer than @p reach to any [m]. */
+std::vector<Crumb> images_of_crumbs(const NodalState &nodes,
+                                    const BondFailure &failure,
+                                    const MirrorPlanes &mirror,
+                                    const double reach)
+{
+  std::vector<Crumb> images;
+  for (std::size_t i = 0; i < nodes.n_owned && mirror.any(); ++i)
+    if (failure.has_crumbled(i))
+      mirror.for_images(
+          nodes.position[i], mirror.planes_at(nodes.reference_position[i]),
+          reach,
+          [&](const unsigned int symmetry, const Vec there)
+          {
+            images.push_back(
+                {MirrorPlanes::image(nodes.global_id[i], symmetry), there});
+          });
+  return images;
+}
+
+/** This rank's and those of others, and images, that may be closer than @p
+   reach [m] to one of them, by number. */
 std::vector<Crumb> gather_crumbs(const NodalState &nodes,
-                                 const BondFailure &failure, const double reach,
+                                 const BondFailure &failure,
+                                 const MirrorPlanes &mirror, const double reach,
                                  MPI_Comm communicator)
 {
   std::vector<Crumb> mine;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     if (failure.has_crumbled(i))
       mine.push_back({nodes.global_id[i], nodes.position[i]});
+  const std::vector<Crumb> images =
+      images_of_crumbs(nodes, failure, mirror, reach);
   int rank;
   MPI_Comm_rank(communicator, &rank);
   constexpr double round_off = 1. + 1e-9;
@@ -76,12 +100,19 @@ std::vector<Crumb> gather_crumbs(const NodalState &nodes,
       boxes_of_ranks(mine, round_off * reach, communicator);
   std::vector<std::vector<Crumb>> to_rank(boxes.size());
   for (std::size_t r = 0; r < boxes.size(); ++r)
+  {
+    const auto add_near = [&](const std::vector<Crumb> &crumbs)
+    {
+      std::copy_if(crumbs.begin(), crumbs.end(), std::back_inserter(to_rank[r]),
+                   [&](const Crumb &crumb)
+                   { return boxes[r].contains(crumb.x); });
+    };
     if (int(r) == rank)
       to_rank[r] = mine;
     else
-      std::copy_if(mine.begin(), mine.end(), std::back_inserter(to_rank[r]),
-                   [&](const Crumb &crumb)
-                   { return boxes[r].contains(crumb.x); });
+      add_near(mine);
+    add_near(images);
+  }
   std::vector<Crumb> near = send_some(to_rank, communicator);
   std::sort(near.begin(), near.end(),
             [](const Crumb &a, const Crumb &b) { return a.id < b.id; });
@@ -253,11 +284,14 @@ BondList::Rows renew_crumbled_neighbors(const NodalState &nodes,
                                         const BondList &bonds,
                                         const BondFailure &failure,
                                         const LagrangianKernel &kernel,
+                                        const MirrorPlanes &mirror,
                                         MPI_Comm communicator)
 {
-  const double reach = kernel.support() * kernel.mean_spacing();
-  const NearCrumbs near(gather_crumbs(nodes, failure, reach, communicator),
-                        reach, nodes);
+  // Both ends of a bond to an image agree on what is at the edge, too.
+  constexpr double edge = 1. - 1e-9;
+  const double reach = edge * kernel.support() * kernel.mean_spacing();
+  const NearCrumbs near(
+      gather_crumbs(nodes, failure, mirror, reach, communicator), reach, nodes);
   BondList::Rows rows;
   rows.reserve(nodes.n_owned, bonds.capacity());
   std::vector<GlobalIndex> kept;

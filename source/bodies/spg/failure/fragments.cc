@@ -3,9 +3,9 @@
 
 #include "sabot/base/exact_sum.h"
 #include "sabot/base/gather_all.h"
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ bool joins_pieces(const BondFailure &failure, const std::size_t i,
 std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
                                          const BondList &bonds,
                                          const BondFailure &failure,
-                                         const GhostExchange &exchange,
+                                         const ParticleExchange &exchange,
                                          MPI_Comm communicator)
 {
   // Within the rank by joining, then across ranks until nothing changes.
@@ -191,8 +191,35 @@ Fragment piece_of(const GlobalIndex label, const Sums &sums,
 }
 } // namespace
 
+std::vector<unsigned int>
+planes_crossed(const NodalState &nodes, const BondList &bonds,
+               const BondFailure &failure,
+               const std::vector<SymmetryPlane> &planes)
+{
+  std::vector<unsigned int> crossed(nodes.n_owned, 0);
+  const std::size_t first_image = nodes.size() - nodes.n_images;
+  for (std::size_t i = 0; i < nodes.n_owned && nodes.n_images > 0; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    {
+      const std::uint32_t j = bonds.neighbor[b];
+      if (j < first_image || !joins_pieces(failure, i, j))
+        continue;
+      for (std::size_t p = 0; p < planes.size(); ++p)
+      {
+        const int d = planes[p].axis;
+        const double X = planes[p].coordinate;
+        if ((nodes.reference_position[i][d] - X) *
+                (nodes.reference_position[j][d] - X) <=
+            0.)
+          crossed[i] |= 1u << p;
+      }
+    }
+  return crossed;
+}
+
 std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const std::vector<GlobalIndex> &label,
+                                     const std::vector<unsigned int> &crossed,
                                      const std::vector<SymmetryPlane> &planes,
                                      const double tolerance,
                                      MPI_Comm communicator)
@@ -205,7 +232,8 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
       last = &all.of(label[i]);
     Sums &s = *last;
     ++s.n;
-    s.planes |= planes_at(nodes.reference_position[i], planes, tolerance);
+    s.planes |=
+        crossed[i] | planes_at(nodes.reference_position[i], planes, tolerance);
     s.mass.add(nodes.lumped_mass[i]);
     for (int d = 0; d < 3; ++d)
       s.momentum[d].add(nodes.lumped_mass[i] * nodes.velocity[i][d]);

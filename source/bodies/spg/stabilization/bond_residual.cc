@@ -68,6 +68,10 @@ public:
   {
     previous_position = body.nodes.position;
   }
+  void renew_images(const SpgParts &body) override
+  {
+    body.exchange.update_positions(previous_position.data());
+  }
   void compute_forces(SpgParts &body, const double dt) override;
   void begin_kernel_update(const SpgParts &body) override;
   void follow_functions(const SpgParts &body) override;
@@ -341,6 +345,7 @@ void BondResidual::add_row_sums(const SpgParts &body,
   std::vector<double> k(body.nodes.size());
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
     k[i] = stiffness[i] * stiffness_share(body, i);
+  body.exchange.make_whole(k.data());
   body.exchange.update(k.data());
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {

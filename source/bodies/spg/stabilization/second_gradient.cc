@@ -17,6 +17,21 @@ struct HigherStresses
 {
   Mat columns[3];
 };
+/** A tensor of third order. */
+void mirror(HigherStresses &s, const unsigned int axes)
+{
+  const Vec signs = mirror_signs(axes);
+  for (int k = 0; k < 3; ++k)
+  {
+    mirror(s.columns[k], axes);
+    s.columns[k] = signs[k] * s.columns[k];
+  }
+}
+HigherStresses operator*(const double copies, const HigherStresses &s)
+{
+  return {
+      {copies * s.columns[0], copies * s.columns[1], copies * s.columns[2]}};
+}
 
 /**
  * The reference paper's stabilization (Wu & Wu 2018, Eqs. 3, 8, 13, 15) read as
@@ -212,6 +227,8 @@ void SecondGradient::gather(const SpgParts &body,
                             Vec *const force) const
 {
   const BondList &bonds = body.bonds;
+  body.exchange.make_whole(generalized.data());
+  body.exchange.make_whole(force);
   body.exchange.update(generalized.data());
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
@@ -225,6 +242,7 @@ void SecondGradient::gather(const SpgParts &body,
     f[3] = 0.;
     force[i] += f;
   }
+  body.exchange.take_shares(force);
 }
 
 void SecondGradient::add_row_sums(const SpgParts &body,
@@ -235,6 +253,7 @@ void SecondGradient::add_row_sums(const SpgParts &body,
   const double c = law.sound_speed(), modulus = law.density() * c * c;
   std::vector<double> volume(body.fields.kernel_reference_volume);
   volume.resize(body.nodes.size());
+  body.exchange.make_whole(volume.data());
   body.exchange.update(volume.data());
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {

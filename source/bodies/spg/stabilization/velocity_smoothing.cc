@@ -1,10 +1,10 @@
 // Stabilization by smoothing velocities from time to time, momentum consistent.
-#include "sabot/base/ghost_exchange.h"
 #include "sabot/base/nodal_state.h"
 #include "sabot/base/registry.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/stabilization/unstabilized.h"
 #include "sabot/bodies/velocity_constraints.h"
 
@@ -77,10 +77,14 @@ void subtract_smoothed(const SpgParts &body, AlignedVector<Vec> &velocity,
   const BondList &bonds = body.bonds;
   const std::size_t n = nodes.n_owned;
   const double per_spacing = 1. / body.kernel.mean_spacing();
+  std::vector<double> mass(n);
+  for (std::size_t i = 0; i < n; ++i)
+    mass[i] = nodes.moving_mass(i);
+  body.exchange.make_whole(mass.data());
   AlignedVector<Vec> smoothed(n);
   for (std::size_t j = 0; j < n; ++j)
   {
-    const Vec momentum = nodes.moving_mass(j) * velocity[j];
+    const Vec momentum = mass[j] * velocity[j];
     const LinearFunction phi = find_function(body, j, per_spacing);
     const Eigen::Vector4d &a = phi.a;
     smoothed[j] = (2. / 3. * a[0]) * momentum;
@@ -99,7 +103,7 @@ void subtract_smoothed(const SpgParts &body, AlignedVector<Vec> &velocity,
     Vec sum = smoothed[i];
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
       sum += contribution[bonds.reverse[b]];
-    velocity[i] -= (1. / nodes.moving_mass(i)) * sum;
+    velocity[i] -= (1. / mass[i]) * sum;
   }
 }
 

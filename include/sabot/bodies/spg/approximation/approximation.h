@@ -12,7 +12,7 @@
 namespace sabot
 {
 class BondList;
-class GhostExchange;
+class ParticleExchange;
 class LagrangianKernel;
 struct NodalState;
 struct ParticleFields;
@@ -61,7 +61,7 @@ public:
       functions as lumped masses of the owned nodes, whose present masses are
       rho V [kg]. After the first update() only. Collective. */
   void set_convex_masses(NodalState &nodes, const BondList &bonds,
-                         const GhostExchange &exchange);
+                         const ParticleExchange &exchange);
 
   bool stores_gradients() const { return stores; }
   /** Gradient g of the function of bond @p b's neighbor at its owned

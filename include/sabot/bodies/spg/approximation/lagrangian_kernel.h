@@ -10,7 +10,7 @@
 
 namespace sabot
 {
-class GhostExchange;
+class ParticleExchange;
 struct ParticleFields;
 
 /**
@@ -27,8 +27,9 @@ public:
   /** Semi-axes of the kernels at the start: one matrix for all particles of
       a regular lattice, else one each. Support times S [m]: spacings on the
       diagonal in a lattice; on a mesh S^2 is the mean over the cells around
-      of a (x) a + b (x) b + c (x) c with the cells' mean edges. Of all
-      particles, by global number. */
+      of a (x) a + b (x) b + c (x) c with the cells' mean edges, with the
+      images of the cells beyond planes of symmetry. Of all particles, by global
+      number. */
   AlignedVector<Mat> initial_kernels(const ParticleCloud &cloud) const;
   /** Keep those of the owned particles, unless one does for all. */
   void distribute(const AlignedVector<Mat> &kernels,
@@ -42,7 +43,7 @@ public:
   /** F H_0 of owned particle @p i within the limits of the stretch [m]. */
   Mat carried_kernel(const std::size_t i, const Mat &F) const;
   /** Kernels of owned and ghost particles at the start. Collective. */
-  void start(ParticleFields &fields, const GhostExchange &exchange) const;
+  void start(ParticleFields &fields, const ParticleExchange &exchange) const;
 
   /** Whether a regular update is due by @p step. */
   bool is_regular_step(const unsigned int step) const
@@ -94,7 +95,8 @@ private:
   const bool is_regular; // one kernel at the start for all
   const unsigned int interval;
   const double least_strain, largest_stretch;
-  AlignedVector<Mat> initial; // H of the start, owned, unless regular
+  const std::uint32_t symmetry_faces; // of the cloud, a bit each
+  AlignedVector<Mat> initial;         // H of the start, owned, unless regular
 };
 } // namespace sabot
 

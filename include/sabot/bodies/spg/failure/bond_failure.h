@@ -15,7 +15,7 @@
 namespace sabot
 {
 class BondList;
-class GhostExchange;
+class ParticleExchange;
 class MaterialPoints;
 class ParticleConduction;
 class ResidualStrength;
@@ -68,13 +68,13 @@ public:
       criterion can never be met. */
   bool find(const NodalState &nodes, const BondList &bonds,
             const ParticleFields &fields, const MaterialPoints &points,
-            const GhostExchange &exchange, MPI_Comm communicator);
+            const ParticleExchange &exchange, MPI_Comm communicator);
   /** Count the bonds that the last find() marked, and whose metal has crumbled
       by that. Collective. Each end counts its own, so a bond counts twice in
       the sum of n_failed. They stay in the list until remove(), or until rows
       come that leave them out, and then forget_marks(). */
   void count(const NodalState &nodes, const BondList &bonds,
-             const GhostExchange &exchange);
+             const ParticleExchange &exchange);
   /** Remove them from the list; arrays over bonds must then be carried over.
       Collective. @return whether the list has changed, the same on all ranks.
    */
@@ -87,7 +87,8 @@ public:
   void forget_marks() { is_marked.clear(); }
   /** There are other ghosts; n_local with them. Collective where particles may
       crumble. */
-  void renew_ghosts(const GhostExchange &exchange, const std::size_t n_local);
+  void renew_ghosts(const ParticleExchange &exchange,
+                    const std::size_t n_local);
 
   /** Whether one of an owned particle's bonds failed while its own measure
       exceeded the critical value (ParticleDamage). */

@@ -59,6 +59,9 @@ public:
   /** There are other ghosts; their positions are up to date. */
   virtual void renew_ghosts(const SpgParts &) {}
 
+  /** Restored owned entries are there, those of images are not. Collective. */
+  virtual void renew_images(const SpgParts &) {}
+
   /** What holds a particle's bonds now, positions as at the last force
       evaluation: forces of owned nodes [N], stress and energies advanced by
       @p dt [s] (0: forces only). Collective. body.nodes.force is
@@ -92,7 +95,8 @@ public:
   const std::vector<double> &work() const { return done; }
 
   /** Add the form's part of the row sums of K [N/m]: the Gershgorin bound of
-      the stable step. Collective. */
+      the stable step; of whole particles, on planes of symmetry, too.
+      Collective. */
   virtual void add_row_sums(const SpgParts &, std::vector<double> &) const {}
   /** f = -K v of the body linearized at rest in the configuration of the last
       kernel update, elastic moduli, the form included; @p motion with ghosts.
