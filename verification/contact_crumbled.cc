@@ -36,7 +36,7 @@ void crumble(SpgBody &body, const int seed)
   NodalState &n = body.nodes();
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
-    body.set_state("effective plastic strain", i, 1.);
+    body.rooms().points.state("effective plastic strain")[i] = 1.;
     n.velocity[i] +=
         vec(uniform(generator), uniform(generator), uniform(generator));
   }

@@ -48,7 +48,7 @@ Collision collide(const double stiffness_scale)
   {
     const double x = n.reference_position[i][0];
     if (std::abs(x) < 1.6e-3)
-      body.set_state("effective plastic strain", i, 1.);
+      body.rooms().points.state("effective plastic strain")[i] = 1.;
     n.velocity[i] = vec(x > 0. ? 60. : -60., 0., 0.);
   }
   world.stepper.initialize();

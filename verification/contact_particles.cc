@@ -111,7 +111,7 @@ std::vector<Check> worked_metal()
     add_contact(world, options);
     auto &body = static_cast<SpgBody &>(*world.bodies[1]);
     for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
-      body.set_state("effective plastic strain", i, strain);
+      body.rooms().points.state("effective plastic strain")[i] = strain;
     world.couplings[0]->update_search(0, 1.); // looks anew
     while (world.stepper.time() < 2e-6)
       world.advance(0.5);

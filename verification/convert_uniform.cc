@@ -149,12 +149,13 @@ Outcome run(const Motion &motion, const bool all, const std::string &rule,
     for (int c = 0; c < 6; ++c)
       worst.stress =
           std::max(worst.stress, std::abs(zone.stress(c, i) - exact[c]) / size);
-    worst.strain =
-        std::max(worst.strain,
-                 std::abs(zone.state("effective plastic strain", i) - strain));
-    worst.temperature =
-        std::max(worst.temperature,
-                 std::abs(zone.state("temperature", i) - temperature));
+    worst.strain = std::max(
+        worst.strain,
+        std::abs(zone.rooms().points.state("effective plastic strain")[i] -
+                 strain));
+    worst.temperature = std::max(
+        worst.temperature,
+        std::abs(zone.rooms().points.state("temperature")[i] - temperature));
   }
   const Measures measures = world.couplings[0]->measure();
   worst.jump =

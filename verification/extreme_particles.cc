@@ -86,7 +86,7 @@ void broken_block(std::vector<Check> &checks, const int n_whole)
                            std::abs(X[2] - 0.5e-3) < 1e-9 &&
                            std::abs(X[0]) < 0.6e-3;
     if (!(is_middle && whole-- > 0))
-      body.set_state("effective plastic strain", i, 1.);
+      body.rooms().points.state("effective plastic strain")[i] = 1.;
     n.velocity[i] = 2e5 * X; // faster than its waves
     mass += n.lumped_mass[i];
   }

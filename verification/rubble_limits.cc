@@ -41,7 +41,7 @@ struct Rubble
     NodalState &n = body->nodes();
     for (std::size_t i = 0; i < n.n_owned; ++i)
       if (crumbles(n.reference_position[i]))
-        body->set_state("effective plastic strain", i, 1.);
+        body->rooms().points.state("effective plastic strain")[i] = 1.;
   }
 };
 

@@ -98,7 +98,7 @@ RingShear::RingShear(const ShearBox &box)
   {
     const double z = n.reference_position[i][2];
     if (std::abs(z) <= 0.5 * box.layer * box.spacing * (1. + 1e-9))
-      body->set_state("effective plastic strain", i, 1.);
+      body->rooms().points.state("effective plastic strain")[i] = 1.;
     if (std::abs(z) > half_height - 1.6 * box.spacing)
       part[i] = z > 0. ? 1 : -1;
     if (is_upper(i))

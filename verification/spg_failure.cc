@@ -268,7 +268,7 @@ void press_halves(std::vector<Check> &checks,
   // The particles beside the middle plane are strained beyond the limit.
   for (std::size_t i = 0; i < n.n_owned; ++i)
     if (std::abs(n.reference_position[i][0]) < 0.5e-3)
-      body.set_state("effective plastic strain", i, 0.25);
+      body.rooms().points.state("effective plastic strain")[i] = 0.25;
   const Pairs original = pairs_of(body);
   int step = 0;
   Mat A = Mat::identity();
@@ -362,7 +362,7 @@ std::vector<Check> weak_particles()
   // The layer before the last comes loose: the last is a sheet.
   for (std::size_t i = 0; i < n.n_owned; ++i)
     if (std::abs(n.reference_position[i][0] - h) < 0.5 * h)
-      body.set_state("effective plastic strain", i, 0.25);
+      body.rooms().points.state("effective plastic strain")[i] = 0.25;
   int step = 0;
   Mat A = Mat::identity();
   for (; step < 20; ++step)
@@ -393,7 +393,8 @@ std::vector<Check> weak_particles()
   for (const std::size_t i : weak)
   {
     pressed = std::min(pressed, body.stress(1, i));
-    strained = std::max(strained, body.state("effective plastic strain", i));
+    strained = std::max(
+        strained, body.rooms().points.state("effective plastic strain")[i]);
     for (int c = 0; c < 3; ++c)
       extra = std::max(extra, body.stress(c, i));
   }

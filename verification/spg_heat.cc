@@ -47,7 +47,7 @@ Slab slab(const ParticleCloud &cloud, const int steps)
   double before = 0., after = 0.;
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
-    body.set_state("temperature", i, 300. + profile(i));
+    body.rooms().points.state("temperature")[i] = 300. + profile(i);
     before += profile(i) * n.lumped_mass[i];
   }
   for (int i = 1; i <= steps; ++i)

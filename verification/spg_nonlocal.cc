@@ -30,10 +30,10 @@ double front(const double h, const std::optional<double> &length,
   {
     const Vec X = n.reference_position[i];
     // A particle at x = 0 stands for both sides.
-    body.set_state("effective plastic strain", i,
-                   std::abs(X[0]) < 0.1 * h ? 0.5
-                   : X[0] < 0.              ? 1.
-                                            : 0.);
+    body.rooms().points.state("effective plastic strain")[i] =
+        std::abs(X[0]) < 0.1 * h ? 0.5
+        : X[0] < 0.              ? 1.
+                                 : 0.;
     n.position[i] = 1.0001 * X;
   }
   body.update_ghosts();

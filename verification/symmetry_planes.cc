@@ -22,7 +22,7 @@ void crumble(World &world)
   auto &body = static_cast<SpgBody &>(*world.bodies[0]);
   NodalState &n = body.nodes();
   for (std::size_t i = 0; i < n.n_owned; ++i)
-    body.set_state("effective plastic strain", i, 1.);
+    body.rooms().points.state("effective plastic strain")[i] = 1.;
   world.stepper.initialize();
   for (int step = 0; step < 2000 && measure(body, "bonds broken fraction") < 1.;
        ++step)

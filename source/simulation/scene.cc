@@ -376,7 +376,20 @@ std::vector<Resultant> Scene::reactions(const Body &body) const
   if (const VelocityConstraints *const held = body.prescribed())
     for (const Resultant &r :
          held->reactions(body.nodes(), body.id, communicator))
-      all.push_back(r);
+    {
+      // What planes hold, and what images beyond them do, is one thing.
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Resultant &other)
+                                     { return other.source == r.source; });
+      if (same == all.end())
+        all.push_back(r);
+      else
+        for (int d = 0; d < 3; ++d)
+        {
+          same->force[d] += r.force[d];
+          same->impulse[d] += r.impulse[d];
+        }
+    }
   return all;
 }
 

@@ -80,7 +80,8 @@ struct CrumbledBlock
     for (std::size_t i = 0; i < n.n_owned; ++i)
     {
       const bool crumbles = 0.5 + 0.5 * number(random) < share;
-      body->set_state("effective plastic strain", i, crumbles ? 1. : 0.);
+      body->rooms().points.state("effective plastic strain")[i] =
+          crumbles ? 1. : 0.;
       n.position[i] = 1.05 * n.reference_position[i];
       if (crumbles)
         for (int d = 0; d < 3; ++d)

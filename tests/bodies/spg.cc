@@ -275,7 +275,7 @@ struct BreakingBlock
     NodalState &n = body->nodes();
     for (std::size_t i = 0; i < n.n_owned; ++i)
     {
-      body->set_state("effective plastic strain", i, 1.);
+      body->rooms().points.state("effective plastic strain")[i] = 1.;
       n.velocity[i] = 2e5 * n.reference_position[i]; // faster than waves
     }
     world.stepper.initialize();
@@ -372,8 +372,8 @@ TEST(Spg, a_torn_particle_does_not_flow)
   for (std::size_t i = 0; i < body.nodes().n_owned; ++i)
   {
     EXPECT_TRUE(body.rooms().approximation.lost_direction[i]);
-    EXPECT_EQ(body.state("effective plastic strain", i), 0.);
-    EXPECT_EQ(body.state("temperature", i), 294.);
+    EXPECT_EQ(body.rooms().points.state("effective plastic strain")[i], 0.);
+    EXPECT_EQ(body.rooms().points.state("temperature")[i], 294.);
   }
   const Energies e(body);
   EXPECT_EQ(e.plastic, 0.);

@@ -136,7 +136,7 @@ TEST(Tie, leaders_do_not_feel_bonds_that_failed)
   NodalState &leaders = fem.nodes(), &n = spg.nodes();
   for (std::size_t i = 0; i < n.n_owned; ++i)
   {
-    spg.set_state("effective plastic strain", i, 1.);
+    spg.rooms().points.state("effective plastic strain")[i] = 1.;
     n.velocity[i] = vec(1e5 * n.reference_position[i][0], 0., 0.);
   }
   world.stepper.initialize();

@@ -47,6 +47,26 @@ inline void mirror(Mat &t, const unsigned int axes)
     t.row[d][3] = lane;
   }
 }
+
+/** Mean of a tensor and its images in planes across @p axes: nothing links
+    directions along and across them. */
+inline void take_mean_of_images(Mat &t, const unsigned int axes)
+{
+  for (int d = 0; d < 3; ++d)
+    for (int e = 0; e < 3; ++e)
+      if (d != e && ((axes >> d | axes >> e) & 1))
+        t.row[d][e] = 0.;
+}
+
+/** The same of xx, yy, zz, xy, yz, xz. */
+inline void take_mean_of_images(double *const symmetric,
+                                const unsigned int axes)
+{
+  constexpr unsigned int linked[3] = {1 | 2, 2 | 4, 1 | 4};
+  for (int c = 0; c < 3; ++c)
+    if (axes & linked[c])
+      symmetric[3 + c] = 0.;
+}
 } // namespace sabot
 
 #endif

@@ -37,6 +37,14 @@ MirrorPlanes::MirrorPlanes(const std::vector<SymmetryPlane> &planes,
   n_symmetries = n_of(axes[0]) * n_of(axes[1]) * n_of(axes[2]);
 }
 
+unsigned int MirrorPlanes::across() const
+{
+  unsigned int bits = 0;
+  for (int d = 0; d < 3; ++d)
+    bits |= (axes[d].n_planes > 0) << d;
+  return bits;
+}
+
 unsigned int MirrorPlanes::planes_at(const Vec X) const
 {
   unsigned int on = 0;

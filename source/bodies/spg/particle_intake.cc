@@ -7,6 +7,7 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
+#include "sabot/bodies/spg/image_reaction.h"
 #include "sabot/bodies/spg/image_rows.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/particle_surface.h"
@@ -14,6 +15,7 @@
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/velocity_constraints.h"
+#include "sabot/kernels/mirrored.h"
 
 #include <algorithm>
 
@@ -167,11 +169,13 @@ void ParticleIntake::extend(const std::vector<GlobalIndex> &fresh)
   }
   body.fields.extend(n);
   body.fields.note_planes(body.mirror, nodes);
+  if (body.reaction)
+    body.reaction->extend(n);
   body.points.extend(n);
   body.kernel.extend(body.kernel.initial_kernels_of(body.cloud, where));
   body.approximation.extend(n);
   body.failure.extend(n, body.residual_strength);
-  body.stable.extend(n);
+  body.stable_step.extend(n);
   body.stabilization.extend(n);
   for (const GlobalIndex place : places())
     largest_spacing = std::max(largest_spacing, skin.spacing[place]);
@@ -180,9 +184,34 @@ void ParticleIntake::extend(const std::vector<GlobalIndex> &fresh)
                       body.constraints);
 }
 
+ParticleIntake::Gift ParticleIntake::gift_to(const std::size_t i,
+                                             const std::size_t entry) const
+{
+  const auto states = matter->states.begin() + entry * matter->n_rows;
+  Gift gift{matter->entries[entry], {states, states + matter->n_rows}};
+  const unsigned int axes = MirrorPlanes::held_axes(
+      body.mirror.planes_at(body.nodes.reference_position[i]));
+  if (axes == 0)
+    return gift;
+  NodalMatter::Entry &e = gift.entry;
+  Mat mean = e.gradient;
+  take_mean_of_images(mean, axes);
+  e.gradient = mean_gradient(mean, 1., mean, 1., e.volume / e.reference_volume);
+  take_mean_of_images(e.stress.data(), axes);
+  std::size_t row = 0;
+  for (const StateVariable &variable : body.points.law().state_variables())
+  {
+    if (variable.is_tensor)
+      take_mean_of_images(&gift.states[row], axes);
+    row += variable.is_tensor ? n_symmetric : 1;
+  }
+  return gift;
+}
+
 void ParticleIntake::fill_new(const std::size_t i, const std::size_t entry)
 {
-  const NodalMatter::Entry &e = matter->entries[entry];
+  const Gift gift = gift_to(i, entry);
+  const NodalMatter::Entry &e = gift.entry;
   NodalState &nodes = body.nodes;
   nodes.position[i] = e.position;
   nodes.velocity[i] = e.velocity;
@@ -197,7 +226,7 @@ void ParticleIntake::fill_new(const std::size_t i, const std::size_t entry)
   for (int c = 0; c < n_symmetric; ++c)
     body.points.stress_row(c)[i] = e.stress[c];
   for (std::size_t r = 0; r < matter->n_rows; ++r)
-    body.points.state_row(r)[i] = matter->states[entry * matter->n_rows + r];
+    body.points.state_row(r)[i] = gift.states[r];
   body.points.viscous_pressure[i] = e.viscous_pressure;
   body.points.plastic_work[i] = e.plastic_work;
   const double loss =
@@ -209,7 +238,8 @@ void ParticleIntake::fill_new(const std::size_t i, const std::size_t entry)
 
 void ParticleIntake::merge(const std::size_t i, const std::size_t entry)
 {
-  const NodalMatter::Entry &e = matter->entries[entry];
+  const Gift gift = gift_to(i, entry);
+  const NodalMatter::Entry &e = gift.entry;
   ParticleFields &fields = body.fields;
   MaterialPoints &points = body.points;
   const double V_0 = fields.reference_volume[i],
@@ -231,9 +261,7 @@ void ParticleIntake::merge(const std::size_t i, const std::size_t entry)
   for (std::size_t r = 0; r < matter->n_rows; ++r)
   {
     double &state = points.state_row(r)[i];
-    state = (V_0 * state +
-             e.reference_volume * matter->states[entry * matter->n_rows + r]) /
-            V_0_sum;
+    state = (V_0 * state + e.reference_volume * gift.states[r]) / V_0_sum;
   }
   points.viscous_pressure[i] =
       (V * points.viscous_pressure[i] + e.volume * e.viscous_pressure) / V_sum;

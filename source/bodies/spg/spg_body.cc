@@ -36,34 +36,40 @@ SpgBody::SpgBody(const std::string &name, const int id, ParticleCloud cloud,
       approximation(options), surface(this->cloud, options, "Bodies/" + name),
       mirror(images_of(this->cloud, surface)),
       stabilization(options.stabilization()), failure(options),
-      residual_strength(options.residual_strength()),
-      parts{this->name, this->options, nodal_state, node_exchange,
-            mirror,     bonds,         fields,      points,
-            kernel,     approximation, failure,     *residual_strength,
-            stable,     constraints,   work,        watch},
+      residual_strength(options.residual_strength()), parts{this->name,
+                                                            this->options,
+                                                            nodal_state,
+                                                            node_exchange,
+                                                            mirror,
+                                                            reaction,
+                                                            bonds,
+                                                            fields,
+                                                            points,
+                                                            kernel,
+                                                            approximation,
+                                                            failure,
+                                                            *residual_strength,
+                                                            stable,
+                                                            constraints,
+                                                            work,
+                                                            watch},
       views(parts, surface, *stabilization, rank_of, communicator)
 {
+  if (mirror.any())
+    reaction = std::make_unique<ImageReaction>(mirror.across());
   if (options.grows)
     intake = std::make_unique<ParticleIntake>(
-        ParticleIntake::Rooms{this->options,
+        ParticleIntake::Rooms{{parts},
                               this->cloud,
                               std::move(lattices),
-                              nodal_state,
-                              bonds,
-                              fields,
-                              points,
                               kernel,
                               approximation,
+                              stable,
                               surface,
                               *stabilization,
-                              failure,
-                              *residual_strength,
-                              stable,
-                              constraints,
                               rank_of,
                               node_owner,
                               n_global,
-                              mirror,
                               communicator,
                               [this](const unsigned int step)
                               { update_kernel_and_forces(step, false); }});
@@ -138,6 +144,8 @@ void SpgBody::distribute(const std::vector<int> &owner, MPI_Comm comm)
     cloud = ParticleCloud();
   fields.allocate(volume, law.stiffens());
   fields.note_planes(mirror, nodal_state);
+  if (reaction)
+    reaction->extend(n);
   // Before the calibration, which takes the most memory of all.
   std::vector<double>().swap(volume);
   std::vector<GlobalIndex>().swap(ids);
@@ -215,9 +223,27 @@ void SpgBody::compute_forces(const double /*time*/, const double dt)
 void SpgBody::evaluate_forces(const double dt)
 {
   watch.restart();
+  if (reaction)
+    reaction->settle(fields.own_force);
   stabilization->compute_forces(parts, dt);
   std::copy_n(nodal_state.force.begin(), nodal_state.n_owned,
               fields.own_force.begin());
+}
+
+void SpgBody::accumulate_work(const double half_dt)
+{
+  // Of a body that makes substeps a kick of the scene has that part.
+  const double part =
+      nodal_state.kick_change.empty() ? 1. : 1. / nodal_state.n_substeps;
+  if (reaction)
+    reaction->wait(part * half_dt);
+}
+
+std::vector<Resultant> SpgBody::reactions() const
+{
+  if (!reaction)
+    return {};
+  return {reaction->resultant(id, fields.own_force, communicator)};
 }
 
 StableStep SpgBody::stable_step() const

@@ -256,18 +256,23 @@ void SpgBody::visit_bonds(StateVisitor &visitor)
   stabilization->visit_bonds(visitor, parts, rows);
 }
 
-void SpgBody::renew_images()
+namespace
+{
+/** What images have of their particles, from a checkpoint, which has none of
+    them. Collective. */
+void renew_images(SpgParts &body, Stabilization &form)
 {
   for (AlignedVector<Vec> *const places :
-       {&nodal_state.position, &fields.kernel_reference_position})
-    node_exchange.update_positions(places->data());
-  node_exchange.update(nodal_state.velocity.data());
-  node_exchange.update(nodal_state.lumped_mass.data());
-  node_exchange.update(nodal_state.inertia.data());
-  node_exchange.update(fields.kernel.data());
-  failure.renew_ghosts(node_exchange, nodal_state.size());
-  stabilization->renew_images(parts);
+       {&body.nodes.position, &body.fields.kernel_reference_position})
+    body.exchange.update_positions(places->data());
+  body.exchange.update(body.nodes.velocity.data());
+  body.exchange.update(body.nodes.lumped_mass.data());
+  body.exchange.update(body.nodes.inertia.data());
+  body.exchange.update(body.fields.kernel.data());
+  body.failure.renew_ghosts(body.exchange, body.nodes.size());
+  form.renew_images(body);
 }
+} // namespace
 
 void SpgBody::visit_state(StateVisitor &visitor)
 {
@@ -285,6 +290,11 @@ void SpgBody::visit_state(StateVisitor &visitor)
   visitor.visit_items("velocity", nodal_state.velocity, items);
   visitor.visit_items("force", nodal_state.force, items);
   visitor.visit_items("inertia", nodal_state.inertia, items);
+  if (reaction)
+  {
+    visitor.visit_items("own force", fields.own_force, items);
+    reaction->visit_state(visitor, items);
+  }
   constraints.visit_state(visitor, name, nodal_state);
   fields.visit_state(visitor, items);
   points.visit_state(visitor, items, 1);
@@ -300,6 +310,6 @@ void SpgBody::visit_state(StateVisitor &visitor)
   heat.visit_state(visitor);
   visit_scaling(visitor);
   if (visitor.is_restoring() && mirror.any())
-    renew_images();
+    renew_images(parts, *stabilization);
 }
 } // namespace sabot

@@ -7,6 +7,7 @@
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/fragments.h"
+#include "sabot/bodies/spg/image_reaction.h"
 #include "sabot/bodies/spg/mirror_planes.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
@@ -113,6 +114,8 @@ void SpgViews::list_memory(MemoryTable &table) const
   body.stable_step.list_memory(table);
   body.kernel.list_memory(table);
   surface.list_memory(table);
+  if (body.reaction)
+    body.reaction->list_memory(table);
   table.add("rank of every particle of the body", rank_of);
 }
 } // namespace sabot

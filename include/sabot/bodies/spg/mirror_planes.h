@@ -55,6 +55,8 @@ public:
                const double tolerance);
 
   bool any() const { return n_symmetries > 1; }
+  /** Across which there are images, a bit each. */
+  unsigned int across() const;
   /** Planes on which a particle lies that is at @p X at the start: bits 2 d and
       2 d + 1 of axis d, its lower and its upper plane; one alone is lower. */
   unsigned int planes_at(const Vec X) const;

@@ -5,6 +5,7 @@
 #include "sabot/bodies/conversion.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/particle_surface.h"
+#include "sabot/bodies/spg/spg_parts.h"
 #include "sabot/geometry/particle_cloud.h"
 
 #include <mpi.h>
@@ -15,17 +16,7 @@
 
 namespace sabot
 {
-class BondFailure;
-class LagrangianKernel;
-class MaterialPoints;
-class MirrorPlanes;
-class ParticleApproximation;
-class ResidualStrength;
-class SpgStableStep;
 class Stabilization;
-class VelocityConstraints;
-struct ParticleFields;
-struct SpgOptions;
 
 /**
  * How an SPG body grows by what cells of its host give. Particle k is the site
@@ -44,29 +35,21 @@ struct SpgOptions;
 class ParticleIntake : public ParticleSink
 {
 public:
-  /** The rooms of the body; they outlive this. */
-  struct Rooms
+  /** The rooms of the body, as whoever makes it grow needs them; they outlive
+      this. */
+  struct Rooms : SpgParts
   {
-    const SpgOptions &options;
     /** Of all nodes of the host; with lattices of the particles that there
         are, by number, as there may be sites without end. Stays. */
     ParticleCloud &cloud;
     std::shared_ptr<const SplitMesh> lattices; // null: none
-    NodalState &nodes;
-    BondList &bonds;
-    ParticleFields &fields;
-    MaterialPoints &points;
     LagrangianKernel &kernel;
     ParticleApproximation &approximation;
+    SpgStableStep &stable_step;
     ParticleSurface &surface;
     Stabilization &stabilization;
-    BondFailure &failure;
-    const ResidualStrength &residual_strength;
-    SpgStableStep &stable;
-    VelocityConstraints &constraints;
     std::vector<int> &rank_of, &node_owner; // of every particle
     GlobalIndex &n_global;
-    const MirrorPlanes &mirror;
     MPI_Comm &communicator;
     /** A kernel update with the forces of now, which calls grow(). */
     const std::function<void(const unsigned int step)> update;
@@ -128,6 +111,14 @@ private:
   /** Arrays for the owned particles @p fresh, by number, at rest and
       undeformed. */
   void extend(const std::vector<GlobalIndex> &fresh);
+  /** What cells give to owned particle @p i, with what their images give beyond
+      planes of symmetry that it lies on. */
+  struct Gift
+  {
+    NodalMatter::Entry entry;
+    std::vector<double> states; // [n_rows]
+  };
+  Gift gift_to(const std::size_t i, const std::size_t entry) const;
   void fill_new(const std::size_t i, const std::size_t entry);
   void merge(const std::size_t i, const std::size_t entry);
   /** The present rows, and all pairs with a particle from @p first_new on. */

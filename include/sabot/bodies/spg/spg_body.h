@@ -8,6 +8,7 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
+#include "sabot/bodies/spg/image_reaction.h"
 #include "sabot/bodies/spg/mirror_planes.h"
 #include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
@@ -82,6 +83,10 @@ public:
   {
     constraints.impose(nodal_state);
   }
+  /** What the own forces of now do across planes of symmetry. Local. */
+  void accumulate_work(const double half_dt) override;
+  /** Of images beyond planes of symmetry. Collective. */
+  std::vector<Resultant> reactions() const override;
   /** Positions only: forces do not ask for ghosts' velocities. Collective. */
   void update_ghosts() override;
   /** Forces of owned particles [N] at the positions now, material advanced
@@ -155,15 +160,6 @@ public:
   {
     return points.stress_row(component)[i];
   }
-  void set_state(const std::string &name, const std::size_t i,
-                 const double value)
-  {
-    points.state(name)[i] = value;
-  }
-  double state(const std::string &name, const std::size_t i) const
-  {
-    return points.state(name)[i];
-  }
 
 protected:
   /** Owned particles as vertices. Collective where bonds may fail, for the
@@ -199,9 +195,6 @@ private:
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */
   void evaluate_forces(const double dt);
-  /** What images have of their particles, from a checkpoint, which has none of
-      them. Collective. */
-  void renew_images();
   /** Restored rows lead to new ghosts. Collective. */
   void visit_bonds(StateVisitor &visitor);
 
@@ -219,6 +212,7 @@ private:
   ParticleApproximation approximation;
   ParticleSurface surface;
   const MirrorPlanes mirror;
+  std::unique_ptr<ImageReaction> reaction; // only with images
   std::unique_ptr<Stabilization> stabilization;
   BondFailure failure;
   std::unique_ptr<ResidualStrength> residual_strength;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace sabot
@@ -15,6 +16,7 @@ class ParticleApproximation;
 class BondFailure;
 class BondList;
 class ParticleExchange;
+class ImageReaction;
 class LagrangianKernel;
 class MirrorPlanes;
 class ResidualStrength;
@@ -111,6 +113,8 @@ struct SpgParts
   NodalState &nodes;
   const ParticleExchange &exchange; // of particles
   const MirrorPlanes &mirror;       // planes of symmetry with images
+  /** Null of bodies without images. */
+  const std::unique_ptr<ImageReaction> &reaction;
   BondList &bonds;        // neighbors of owned particles, symmetric weights
   ParticleFields &fields; // deformation and kernels
   MaterialPoints &points; // stress and state, one point a particle

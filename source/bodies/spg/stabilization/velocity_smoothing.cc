@@ -4,6 +4,7 @@
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
+#include "sabot/bodies/spg/image_reaction.h"
 #include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/stabilization/unstabilized.h"
 #include "sabot/bodies/velocity_constraints.h"
@@ -124,7 +125,12 @@ void VelocitySmoothing::after_step(SpgParts &body, const unsigned int step)
   const AlignedVector<Vec> before(nodes.velocity.begin(),
                                   nodes.velocity.begin() + n);
   for (std::size_t i = 0; i < n; ++i)
+  {
     nodes.velocity[i] -= coefficient * difference[i];
+    if (body.reaction)
+      body.reaction->add(i,
+                         -nodes.moving_mass(i) * coefficient * difference[i]);
+  }
   body.constraints.impose(nodes);
   for (std::size_t i = 0; i < n; ++i)
     done[i] += 0.5 * nodes.moving_mass(i) *
