@@ -64,7 +64,8 @@ void FemBoundary::set_up(
 {
   std::map<std::size_t, int> planes; // bit per axis
   std::vector<std::size_t> driven, clamped;
-  double total_area = 0.;
+  double total_area = 0.; // without planes of symmetry, as the whole has it
+  std::size_t n_open = 0;
   const auto is_here = [&](const std::array<GlobalIndex, 4> &face)
   {
     return std::all_of(face.begin(), face.end(),
@@ -79,8 +80,12 @@ void FemBoundary::set_up(
   for (std::size_t f = 0; f < mesh.boundary_faces.size(); ++f)
   {
     const unsigned int id = mesh.boundary_id[f];
-    total_area += norm(area_vector(corners(mesh, f)));
     const bool on_plane = contains(options.symmetry_boundary_ids, id);
+    if (!on_plane)
+    {
+      total_area += norm(area_vector(corners(mesh, f)));
+      ++n_open;
+    }
     std::array<std::size_t, 4> face;
     bool here = true;
     for (int a = 0; a < 4; ++a)
@@ -106,7 +111,7 @@ void FemBoundary::set_up(
       id_of_face.emplace_back(f, id);
     }
   }
-  typical_spacing = std::sqrt(total_area / mesh.boundary_faces.size());
+  typical_spacing = std::sqrt(total_area / std::max<std::size_t>(1, n_open));
   hold_on_planes(planes, constraints);
   for (const std::size_t node : driven)
     for (int d = 0; d < 3; ++d)
