@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 namespace
 {
@@ -156,6 +157,45 @@ TEST(MeshImport, vtk_of_old_and_new_versions)
     for (const bool is_binary : {false, true})
       check_grid(write_vtk(version, is_binary));
   EXPECT_TRUE(has(refusal("bad.vtk", "nothing\n"), "bad.vtk\", line 1"));
+}
+
+/** As editors of other systems save it. */
+std::string with_line_ends(const std::string &text, const std::string &end)
+{
+  std::string changed;
+  for (const char c : text)
+    changed += c == '\n' ? end : std::string(1, c);
+  return changed;
+}
+
+TEST(MeshImport, texts_have_the_line_ends_of_any_system)
+{
+  std::stringstream vtk, vtu;
+  vtk << std::ifstream(write_vtk(51, false)).rdbuf();
+  vtu << std::ifstream(write_vtu(vtkXMLWriter::Ascii, false, false)).rdbuf();
+  const std::map<std::string, std::string> texts = {
+      {"ends.inp", Block().abaqus() + "*Nset, nset=low\n1, 2, 3\n"},
+      {"ends.msh", GmshText(4.1, false).str()},
+      {"ends-2.msh", GmshText(2.2, false).str()},
+      {"ends.vtk", vtk.str()},
+      {"ends.vtu", vtu.str()}};
+  for (const auto &[name, text] : texts)
+  {
+    const NamedMesh here = read_text(name, text);
+    for (const std::string end : {"\r\n", "\r"})
+    {
+      const NamedMesh made = read_text(name, with_line_ends(text, end));
+      EXPECT_EQ(made.mesh.nodes, here.mesh.nodes) << name;
+      EXPECT_EQ(made.mesh.cells, here.mesh.cells) << name;
+      EXPECT_EQ(made.notes, here.notes) << name;
+    }
+  }
+  for (const std::string end : {"\n", "\r\n", "\r"})
+    EXPECT_TRUE(
+        has(refusal("bad.inp", with_line_ends("*Node\n1, 0, 0, 0\n2, x, "
+                                              "0, 0\n",
+                                              end)),
+            "line 3"));
 }
 
 TEST(MeshImport, vtu_in_all_its_encodings)

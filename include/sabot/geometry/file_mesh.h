@@ -96,7 +96,8 @@ struct MeshFile
   /** Refuses a @p line of names that is not UTF-8: no scene could ask for them
       and nothing read the results. @p number: as above. */
   void check_encoding(const std::string &line, const std::size_t number) const;
-  /** All of it; refuses what cannot be opened and what is no file. */
+  /** All of it, lines of text with the ends of any system; refuses what cannot
+      be opened and what is no file. */
   std::string text() const;
 };
 

@@ -43,6 +43,18 @@ std::size_t length_of_character(const std::string &text, const std::size_t at)
   return is_whole ? n : 0;
 }
 
+/** Lone carriage returns, which end the lines of some editors, become line
+    feeds; what has null bytes is binary and stays. */
+void end_lines_here(std::string &text)
+{
+  if (text.find('\0') != std::string::npos)
+    return;
+  for (std::size_t at = text.find('\r'); at != std::string::npos;
+       at = text.find('\r', at + 1))
+    if (at + 1 == text.size() || text[at + 1] != '\n')
+      text[at] = '\n';
+}
+
 std::string quoted(const std::string_view word)
 {
   constexpr std::size_t most = 40;
@@ -128,6 +140,7 @@ std::string MeshFile::text() const
     refuse("it is empty");
   if (all.compare(0, 2, "\xff\xfe") == 0 || all.compare(0, 2, "\xfe\xff") == 0)
     refuse("it is no text in UTF-8 but in UTF-16; save it as UTF-8");
+  end_lines_here(all);
   return all;
 }
 
