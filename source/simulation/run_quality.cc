@@ -22,6 +22,18 @@ std::string percent(const double share)
   return text;
 }
 
+/** What else a body can do against hourglass modes than what it does. */
+std::string instead_of_control(const BodyFacts &facts)
+{
+  const bool may_yield = facts.material->initial_yield_stress().has_value();
+  std::string text = " or \"Integration = B-bar\", which has no such modes";
+  const std::string best = may_yield ? "viscous" : "stiffness";
+  if (facts.hourglass_control != best)
+    text += "; \"Hourglass control = " + best + "\" suits a body that " +
+            (may_yield ? "yields" : "never yields");
+  return text;
+}
+
 bool holds_only_rigid(const Coupling &coupling,
                       const std::vector<std::unique_ptr<Body>> &bodies)
 {
@@ -91,12 +103,10 @@ void describe_quality(const Scene &scene, const ControlShares &shares,
     if (!shares.is_large(body->id, energy_scale))
       log.line("  " + share);
     else
-      log.warning(share + ", more than " + percent(ControlShares::most) +
-                  ": the answer depends on it; use finer " + body->item_name() +
-                  (control == "hourglass"
-                       ? ", \"Integration = B-bar\" or, where nothing yields, "
-                         "\"Hourglass control = stiffness\""
-                       : ""));
+      log.warning(
+          share + ", more than " + percent(ControlShares::most) +
+          ": the answer depends on it; use finer " + body->item_name() +
+          (control == "hourglass" ? instead_of_control(body->facts()) : ""));
   }
   for (const auto &body : scene.bodies)
     if (const MassScaling *const scaling = body->mass_scaling())
