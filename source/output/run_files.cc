@@ -43,7 +43,7 @@ bool RunFiles::write_fields(const double time,
   for (const Body *const body : bodies)
   {
     within_memory(
-        "the fields of body \"" + body->name + "\"",
+        "the fields of \"Bodies/" + body->name + "\"",
         [&]() { fields->write_body(body->name, body->output_mesh(), frame); });
     names.push_back(body->name);
   }

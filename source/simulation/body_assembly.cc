@@ -39,7 +39,7 @@ void BodyAssembly::build(const std::vector<std::string> &names)
   find_postures(names);
   within_memory("meshes with zones", [&]() { carve_meshes(); });
   for (const std::string &name : names)
-    within_memory("body \"" + name + "\"",
+    within_memory("\"Bodies/" + name + "\"",
                   [&]() { bodies.push_back(make_body(name, bodies.size())); });
   for (const Carving &carving : carvings)
     if (carving.finds_itself)

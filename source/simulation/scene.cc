@@ -317,7 +317,7 @@ void Scene::distribute()
 {
   find_owners();
   for (const auto &body : bodies)
-    within_memory("body \"" + body->name + "\" (" +
+    within_memory("\"Bodies/" + body->name + "\" (" +
                       std::to_string(body->n_items()) + " " +
                       body->item_name() + ")",
                   [&]() { body->distribute(body->node_owner, communicator); });

@@ -222,7 +222,7 @@ class Stops(unittest.TestCase):
             self.assertEqual(process.returncode, 5, output)
             for line in errors(output):
                 self.assertRegex(line, r'memory does not suffice for (the fields of )?'
-                                       r'body "block"'
+                                       r'"Bodies/block"'
                                        r".* and may have 1.07 GB \(ulimit -v\)")
             self.assertGreater(len(errors(output)), 0, output)
             self.assertNotIn("terminate", output)
