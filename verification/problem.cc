@@ -71,9 +71,8 @@ std::vector<VerificationProblem> selected(const std::vector<std::string> &names)
         chosen.push_back(p);
     if (chosen.size() == before)
       throw InputError("", "no verification problem or label is called \"" +
-                               name + "\"; did you mean \"" +
-                               nearest_name(name, known) +
-                               "\"? `sabot verify --list` names them all");
+                               name + "\"" + suggestion(name, known) +
+                               "; `sabot verify --list` names them all");
   }
   return chosen;
 }

@@ -17,13 +17,6 @@ bool is_digit(const char c)
   return std::isdigit(static_cast<unsigned char>(c));
 }
 
-std::string lower_case(std::string text)
-{
-  for (char &c : text)
-    c = std::tolower(static_cast<unsigned char>(c));
-  return text;
-}
-
 /** deal.II's description of a pattern as a sentence goes on. */
 std::string in_words(const std::string &pattern)
 {
@@ -99,8 +92,7 @@ std::string expected_value(std::string pattern, const std::string &value)
     const std::vector<std::string> words = split(
         pattern.substr(selection.size(), pattern.size() - selection.size() - 2),
         '|');
-    return "one of " + join(words, ", ") + "; did you mean \"" +
-           nearest_name(value, words) + "\"?";
+    return "one of " + join(words, ", ") + suggestion(value, words);
   }
   std::replace(pattern.begin(), pattern.end(), '|', ' ');
   return in_words(pattern) + advice(pattern, value);

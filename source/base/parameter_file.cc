@@ -6,6 +6,7 @@
 #include "sabot/base/entry_aliases.h"
 #include "sabot/base/expected_value.h"
 #include "sabot/base/text.h"
+#include "sabot/base/unknown_entry.h"
 
 #include <nlohmann/json.hpp>
 
@@ -34,48 +35,6 @@ std::string folder_of(const std::string &file)
 {
   const std::size_t slash = file.rfind('/');
   return slash == std::string::npos ? "" : file.substr(0, slash + 1);
-}
-
-/** Sections in which an entry of this name is declared. */
-void find_entry(const ordered_json &tree, const std::string &name,
-                const std::string &path, std::vector<std::string> &found)
-{
-  for (const auto &item : tree.items())
-    if (is_entry(item.value()))
-    {
-      if (item.key() == name)
-        found.push_back(path.empty() ? "the top level" : path);
-    }
-    else
-      find_entry(item.value(), name,
-                 path.empty() ? item.key() : path + "/" + item.key(), found);
-}
-
-/** Which other kind of subsection beside @p path has the entry @p name, in
-    words, by what @p declare_all declares of all kinds; "" for none. */
-std::string
-kind_with_entry(const std::function<void(Parameters &)> &declare_all,
-                const std::string &path, const std::string &name)
-{
-  Parameters all;
-  declare_all(all);
-  const ordered_json tree = declared_tree(all);
-  const std::string section = path.substr(0, path.find('/'));
-  std::vector<std::string> found;
-  if (tree.contains(section))
-    find_entry(tree[section], name, "", found);
-  if (found.empty())
-    return "";
-  // "<FEM file>" is a kind of body, "<name>" stands for all types.
-  const std::string kind = found[0].substr(0, found[0].find('/'));
-  const std::size_t blank = kind.find(' ');
-  if (found[0] != kind || kind.size() < 3)
-    return "";
-  return blank == std::string::npos
-             ? "another \"Type\""
-             : "\"Discretization = " + kind.substr(1, blank - 1) +
-                   "\" with \"Geometry = " +
-                   kind.substr(blank + 1, kind.size() - blank - 2) + "\"";
 }
 
 [[noreturn]] void fail(const std::string &origin, const std::string &path,
@@ -177,27 +136,37 @@ std::pair<std::string, std::string> assignment(const std::string &text)
 } // namespace
 
 ParameterFile::ParameterFile(const std::string &file,
-                             const std::vector<std::string> &overrides)
+                             const std::vector<std::string> &overrides,
+                             const std::vector<OverrideOrigin> &origins)
     : file_name(file)
 {
   std::vector<std::string> section, open_files;
   read(file, "", section, open_files);
-  for (const std::string &text : overrides)
+  for (std::size_t i = 0; i < overrides.size(); ++i)
   {
-    check_encoding("--set", text);
-    const auto [path, value] = assignment(text);
-    if (path.empty())
-      fail("--set \"" + text + "\"", "",
-           "expected \"Section/Name=value\", for example "
-           "\"End time=2 us\"");
-    Entry entry;
-    entry.section = split(path, '/');
-    entry.name = entry.section.back();
-    entry.section.pop_back();
-    entry.value = value;
-    entry.origin = "--set \"" + text + "\"";
-    add(entry);
+    const std::string option = "--set \"" + overrides[i] + "\"";
+    override_by(overrides[i], i < origins.size()
+                                  ? origins[i]
+                                  : OverrideOrigin{option, option});
   }
+}
+
+void ParameterFile::override_by(const std::string &text,
+                                const OverrideOrigin &origin)
+{
+  check_encoding(origin.value, text);
+  const auto [path, value] = assignment(text);
+  if (path.empty())
+    fail(origin.entry, "",
+         "expected \"Section/Name=value\", for example \"End time=2 us\"");
+  Entry entry;
+  entry.section = split(path, '/');
+  entry.name = entry.section.back();
+  entry.section.pop_back();
+  entry.value = value;
+  entry.origin = origin.value;
+  entry.named_at = origin.entry;
+  add(entry);
 }
 
 void ParameterFile::read(const std::string &file,
@@ -340,6 +309,29 @@ std::string ParameterFile::origin(const std::string &path) const
   return file_name;
 }
 
+std::string ParameterFile::file_of(const std::string &path) const
+{
+  const auto found = number.find(path);
+  return found == number.end() || entries[found->second].file.empty()
+             ? file_name
+             : entries[found->second].file;
+}
+
+std::string ParameterFile::located(const InputError &error) const
+{
+  const std::string message = error.what();
+  if (error.parameter.empty())
+    return message;
+  const std::string from = origin(error.parameter);
+  const auto begins_with = [&](const std::string &place)
+  { return !place.empty() && message.compare(0, place.size(), place) == 0; };
+  const auto found = number.find(error.parameter);
+  if (begins_with(from) ||
+      (found != number.end() && begins_with(entries[found->second].named_at)))
+    return message;
+  return from + ": " + error.parameter + ": " + message;
+}
+
 void ParameterFile::parse_into(
     Parameters &prm, const std::function<void(Parameters &)> &declare_all) const
 {
@@ -358,36 +350,9 @@ void ParameterFile::parse_into(
         if (is_entry(item.value()) == last)
           allowed.push_back(item.key());
       if (std::find(allowed.begin(), allowed.end(), wanted) == allowed.end())
-      {
-        std::string message = std::string("unknown ") +
-                              (last ? "entry" : "subsection") + " \"" + wanted +
-                              "\" in " +
-                              (!above.empty()           ? above
-                               : tree.contains("Scene") ? "the study"
-                                                        : "the scene");
-        std::vector<std::string> elsewhere;
-        if (last)
-          find_entry(tree, wanted, "", elsewhere);
-        const std::string other =
-            last && elsewhere.empty() && declare_all && !above.empty()
-                ? kind_with_entry(declare_all, above, wanted)
-                : "";
-        if (!elsewhere.empty())
-          message += "; an entry of this name belongs to " + elsewhere[0];
-        else if (!other.empty())
-          message += "; an entry of this name is for " + other;
-        else if (!allowed.empty())
-          message +=
-              "; did you mean \"" + nearest_name(wanted, allowed) + "\"?";
-        if (!allowed.empty() && allowed.size() <= 30)
-        {
-          message +=
-              message.back() == '?' ? " Allowed here: " : "; allowed here: ";
-          for (std::size_t i = 0; i < allowed.size(); ++i)
-            message += (i > 0 ? ", " : "") + allowed[i];
-        }
-        fail(entry.origin, path, message);
-      }
+        fail(entry.named_at.empty() ? entry.origin : entry.named_at, path,
+             about_unknown_entry({tree, above, wanted, last}, allowed,
+                                 declare_all));
       node = &(*node)[wanted];
       above += (above.empty() ? "" : "/") + wanted;
     }

@@ -1,6 +1,7 @@
 // Small tools for text, shared by everything that reads or writes it.
 #include "sabot/base/text.h"
 
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -32,6 +33,13 @@ std::string join(const std::vector<std::string> &texts,
   for (std::size_t i = 0; i < texts.size(); ++i)
     all += (i > 0 ? between : "") + texts[i];
   return all;
+}
+
+std::string lower_case(std::string text)
+{
+  for (char &c : text)
+    c = std::tolower(static_cast<unsigned char>(c));
+  return text;
 }
 
 std::string formatted(const char *pattern, const double value)

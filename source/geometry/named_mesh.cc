@@ -7,7 +7,6 @@
 #include "sabot/geometry/boundary_planes.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -64,21 +63,13 @@ bool lies_in(const HexMesh &mesh, const std::size_t face, const Plane &plane,
   return inside;
 }
 
-/** The name in lower case. */
-std::string lower(std::string text)
-{
-  for (char &c : text)
-    c = std::tolower(static_cast<unsigned char>(c));
-  return text;
-}
-
 /** Ids of the faces called @p word, ascending; @p is_known: whether there is
     such a name at all. */
 std::vector<unsigned int> ids_of(const NamedMesh &made, const std::string &word,
                                  const bool any_case, bool &is_known)
 {
   const auto equal = [&](const std::string &name)
-  { return any_case ? lower(name) == lower(word) : name == word; };
+  { return any_case ? lower_case(name) == lower_case(word) : name == word; };
   std::vector<unsigned int> ids;
   is_known = false;
   for (unsigned int id = 0; id < made.faces.size(); ++id)
@@ -245,7 +236,7 @@ std::vector<unsigned int> find_face_ids(const std::string &path,
     if (!is_known)
       found = ids_of(made, word, true, is_known);
     for (const NamedMesh::Unusable &name : made.unusable)
-      if (!is_known && lower(name.name) == lower(word))
+      if (!is_known && lower_case(name.name) == lower_case(word))
         throw InputError(path, "\"" + word +
                                    "\" names no faces here: " + name.reason);
     if (!is_known)

@@ -126,13 +126,9 @@ std::vector<std::string> present_names(const ParameterFile &file,
       throw InputError(list, "names are separated by commas: \"" +
                                  join(split(name, ' '), ", ") + "\"");
     else if (std::find(present.begin(), present.end(), name) == present.end())
-      throw InputError(list,
-                       "\"" + name + "\" is listed, but there is no \"" +
-                           section + "/" + name + "\"" +
-                           (present.empty()
-                                ? std::string()
-                                : "; did you mean \"" +
-                                      nearest_name(name, present) + "\"?"));
+      throw InputError(list, "\"" + name + "\" is listed, but there is no \"" +
+                                 section + "/" + name + "\"" +
+                                 suggestion_or_list(name, present));
   return present;
 }
 

@@ -26,10 +26,16 @@ namespace
 {
 namespace fs = std::filesystem;
 
-std::string last_line(const std::string &file)
+/** What a run has said last: of what the study sets with the line of the study
+    that does, not by the option that hands it on. */
+std::string last_words(const StudyRun &run, const std::string &folder)
 {
-  const std::vector<std::string> lines = lines_of(file);
-  return lines.empty() ? "" : lines.back();
+  const std::vector<std::string> lines = lines_of(folder + "/output.txt");
+  std::string line = lines.empty() ? "" : lines.back();
+  for (std::size_t i = 0; i < run.overrides.size(); ++i)
+    line = replaced(std::move(line), "--set \"" + run.overrides[i] + "\"",
+                    run.origins[i].value);
+  return line;
 }
 
 std::string run_folder(const StudyArguments &arguments, const StudyRun &run)
@@ -209,7 +215,7 @@ std::string report_of(const StudyFile &study, const Plan::Item &item,
   if (code == 0)
     return text;
   // What a quiet run says stands in its result.
-  const std::string said = last_line(item.folder + "/output.txt");
+  const std::string said = last_words(*item.run, item.folder);
   return text + ": exit code " + std::to_string(code) + ": " +
          (said.empty() ? read_outcome(item.folder, study.quantities).reason
                        : said);
@@ -314,7 +320,7 @@ ExitCode run_study(const StudyArguments &arguments)
     if (outcome.status == "missing" && fs::exists(folder + "/output.txt"))
     {
       outcome.status = "failed";
-      outcome.reason = last_line(folder + "/output.txt");
+      outcome.reason = last_words(run, folder);
     }
     n_complete += outcome.is_complete();
     outcomes.push_back(outcome);

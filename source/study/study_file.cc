@@ -11,6 +11,7 @@
 #include "sabot/simulation/scene.h"
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace sabot
@@ -149,37 +150,6 @@ std::vector<std::pair<double, double>> read_curve(const std::string &path,
   return curve;
 }
 
-/** InputError for @p entry where the scene has no quantity @p name. */
-void check_quantity(const std::string &entry, const std::string &scene,
-                    const std::vector<std::string> &known,
-                    const std::string &name)
-{
-  if (name.empty() ||
-      std::find(known.begin(), known.end(), name) != known.end())
-    return;
-  throw InputError(entry,
-                   "scene \"" + scene + "\" has no quantity \"" + name + "\"" +
-                       (known.empty() ? std::string()
-                                      : "; did you mean \"" +
-                                            nearest_name(name, known) + "\"?"));
-}
-
-/** InputError for @p entry where a measured value has another dimension than
-    the quantity of the scene. */
-void check_measured(const std::string &entry, const StudyQuantity &quantity,
-                    const ParameterFile &scene)
-{
-  const std::string type = scene.value("Quantities/" + quantity.name + "/Type",
-                                       "velocity"),
-                    unit = unit_of_quantity(type);
-  if (quantity.measured_text.empty() || unit.empty() ||
-      is_told_in(quantity.measured_text, unit))
-    return;
-  throw InputError(entry, "is " + quantity.measured_text + ", but \"" +
-                              quantity.name + "\" is of the type " + type +
-                              ", in " + unit);
-}
-
 /** InputError where a ballistic fit has no parameter of velocities. */
 void check_ballistic(const std::string &path, const std::string &name,
                      const std::vector<StudyParameter> &parameters)
@@ -256,13 +226,7 @@ StudyFile::StudyFile(const std::string &file_name,
   }
   catch (const InputError &e)
   {
-    // What is wrong in the scene's own files says so already.
-    if (e.parameter.empty() ||
-        std::string(e.what()).find(".prm") != std::string::npos ||
-        std::string(e.what()).compare(0, 5, "--set") == 0)
-      throw;
-    throw InputError("", file.origin(e.parameter) + ": " + e.parameter + ": " +
-                             e.what());
+    throw InputError("", file.located(e));
   }
 }
 
@@ -286,6 +250,8 @@ void StudyFile::read(const ParameterFile &file)
   n_processes = prm.get_integer("Processes");
   n_ranks = prm.get_integer("Ranks per run");
   fixed = split(prm.get("Fixed entries"), ';');
+  const std::string fixed_at = file.origin("Fixed entries") + ": Fixed entries";
+  origin_of_fixed = {fixed_at, fixed_at};
   has_pictures = prm.get_bool("Pictures");
   picture_field = prm.get("Picture field");
   picture_times = prm.get("Picture times");
@@ -294,6 +260,10 @@ void StudyFile::read(const ParameterFile &file)
     prm.enter_subsection("Parameters");
     prm.enter_subsection(name);
     parameters.push_back(read_parameter(prm, name, file.file_name));
+    const auto at = [&](const std::string &path)
+    { return file.origin(path) + ": " + path; };
+    parameters.back().origin = {at("Parameters/" + name + "/Entries"),
+                                at("Parameters/" + name + "/Values")};
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -345,60 +315,5 @@ std::string StudyFile::label(const StudyRun &run,
       text += (text.empty() ? "" : ", ") + parameters[p].name + " " +
               parameters[p].values[run.choice[p]].label;
   return text;
-}
-
-void StudyFile::list_runs()
-{
-  std::vector<std::vector<std::size_t>> choices = {
-      std::vector<std::size_t>(parameters.size(), 0)};
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-  {
-    const std::size_t n = is_grid ? choices.size() : 1;
-    for (std::size_t v = 1; v < parameters[p].values.size(); ++v)
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        choices.push_back(choices[i]);
-        choices.back()[p] = v;
-      }
-  }
-  for (const std::vector<std::size_t> &choice : choices)
-    runs.push_back(make_run(choice));
-}
-
-StudyRun StudyFile::make_run(const std::vector<std::size_t> &choice) const
-{
-  StudyRun run;
-  run.choice = choice;
-  run.scene = scene;
-  run.overrides = fixed;
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    for (std::size_t e = 0; e < parameters[p].entries.size(); ++e)
-    {
-      const std::string &entry = parameters[p].entries[e],
-                        &text = parameters[p].values[choice[p]].text[e];
-      if (entry == "Scene")
-        run.scene = text;
-      else
-        run.overrides.push_back(entry + "=" + text);
-    }
-  // The expanded parameters, as the run itself will write them.
-  const ParameterFile scene_file(run.scene, run.overrides);
-  Parameters prm;
-  Scene::declare(prm, &scene_file);
-  scene_file.parse_into(prm);
-  std::ostringstream text;
-  text << version() << "\n";
-  print_expanded(prm, text);
-  run.key = sha256(text.str()).substr(0, 16);
-  const std::vector<std::string> known =
-      split_names(prm.get("List of quantities"));
-  for (const StudyQuantity &quantity : quantities)
-  {
-    const std::string path = "Quantities/" + quantity.name;
-    check_quantity(path, run.scene, known, quantity.name);
-    check_measured(path + "/Measured value", quantity, scene_file);
-    check_quantity(path + "/Over", run.scene, known, quantity.over);
-  }
-  return run;
 }
 } // namespace sabot

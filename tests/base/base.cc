@@ -272,6 +272,33 @@ TEST_F(Files, a_misspelt_entry_gets_file_line_and_a_suggestion)
   EXPECT_CONTAINS(message("set Cell size = 1 mm"), "belongs to Bodies/plate");
 }
 
+TEST_F(Files, a_name_unlike_any_gets_the_list)
+{
+  const std::string m = message(
+      "subsection Bodies\nsubsection plate\nset Velocity = 1\nend\nend");
+  EXPECT_EQ(m.find("did you mean"), std::string::npos) << m;
+  EXPECT_CONTAINS(m, "; allowed here: ");
+  EXPECT_CONTAINS(m, "Cell size");
+}
+
+TEST(NearestName, is_spelled_alike_or_a_part)
+{
+  const std::vector<std::string> names = {"steel", "copper", "al6061-t6",
+                                          "initial velocity"};
+  EXPECT_EQ(nearest_name("stele", names), "steel");
+  EXPECT_EQ(nearest_name("AL6061", names), "al6061-t6");
+  EXPECT_EQ(nearest_name("Velocity", names), "initial velocity");
+  EXPECT_EQ(nearest_name("copper plate", names), "copper");
+  for (const std::string other : {"", "x", "tungsten", "armour", "concrete"})
+    EXPECT_EQ(nearest_name(other, names), "") << other;
+  EXPECT_EQ(suggestion_or_list("tungsten", names),
+            "; there is: steel, copper, al6061-t6, initial velocity");
+  EXPECT_EQ(suggestion_or_list("coper", names), "; did you mean \"copper\"?");
+  EXPECT_EQ(suggestion_or_list("coper", {}), "");
+  const std::vector<std::string> many(40, "steel");
+  EXPECT_CONTAINS(suggestion_or_list("tungsten", many), "steel and 10 more");
+}
+
 TEST_F(Files, old_names_are_accepted_and_said_once)
 {
   const auto &[old_name, name] = entry_aliases().front();

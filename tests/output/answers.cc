@@ -231,7 +231,7 @@ TEST_F(Answers, what_a_scene_does_not_have_is_refused)
       {{"Quantities/speed/Table=reer", "did you mean \"rear\""}},
       {{"Quantities/speed/Column=velocity", "did you mean"}},
       {{"Quantities/stress/Field=stres", "did you mean \"stress\""}},
-      {{"Quantities/stress/Component=zx", "did you mean"}},
+      {{"Quantities/stress/Component=zx", "there is: "}},
       {{"Quantities/stress/Field=temperature", "has no field"}},
       {{"Outputs/rear/Body=cor", "did you mean \"core\""}},
       {{"Outputs/rear/Point=0 mm, 0 mm, -9 mm", "lies outside"}},

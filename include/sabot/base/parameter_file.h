@@ -14,6 +14,13 @@
 
 namespace sabot
 {
+/** Where an override comes from that is not of the command line: what names the
+    entry, and what gives the value ("study.prm:12"). */
+struct OverrideOrigin
+{
+  std::string entry, value;
+};
+
 /**
  * A parameter file in deal.II's text format with all its includes, which are
  * looked up beside the including file, and overrides from the command line.
@@ -44,9 +51,11 @@ class ParameterFile
 {
 public:
   /** @p overrides: "Section/Sub/Name=value"; later values replace earlier
-      ones, but one file may set an entry only once. */
+      ones, but one file may set an entry only once. @p origins: of each; none:
+      the command line. */
   ParameterFile(const std::string &file,
-                const std::vector<std::string> &overrides);
+                const std::vector<std::string> &overrides,
+                const std::vector<OverrideOrigin> &origins = {});
 
   /** Names of the subsections directly below @p path ("Bodies"), in the order
       in which files and overrides first name them. */
@@ -59,6 +68,12 @@ public:
   /** "scene.prm:12" of an entry or subsection, "" where it is not set; for a
       path that is not set, the nearest enclosing subsection that is. */
   std::string origin(const std::string &path) const;
+
+  /** The file that sets an entry; for one that is not set, or by an override,
+      the one that was given. */
+  std::string file_of(const std::string &path) const;
+  /** "file:line: entry: message" of what is wrong with an entry. */
+  std::string located(const InputError &error) const;
 
   /** Set in @p prm what the file sets. InputError, with file and line, the
       nearest name, and what is allowed there, for an entry that is not
@@ -80,12 +95,14 @@ private:
   {
     std::vector<std::string> section;
     std::string name, value, origin, file;
+    std::string named_at = {}; // where an override names it; "": origin
   };
   /** Read a file into the subsection @p section; @p included_at is where it
       was included, @p open_files those that are being read. */
   void read(const std::string &file, const std::string &included_at,
             std::vector<std::string> &section,
             std::vector<std::string> &open_files);
+  void override_by(const std::string &text, const OverrideOrigin &origin);
   /** Enter under the present name; the last of several files wins. */
   void add(const Entry &entry);
 

@@ -126,8 +126,8 @@ public:
     for (const Entry &entry : list())
       names.push_back(entry.name);
     throw InputError(path, std::string("no ") + Product::kind +
-                               " is called \"" + name + "\"; did you mean \"" +
-                               nearest_name(name, names) + "\"?");
+                               " is called \"" + name + "\"" +
+                               suggestion_or_list(name, names));
   }
 
   /** Declares the entry @p name that makes the choice, with the default

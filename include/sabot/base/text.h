@@ -22,6 +22,9 @@ std::vector<std::string> split(const std::string &text, const char separator);
 std::string join(const std::vector<std::string> &texts,
                  const std::string &between);
 
+/** @p text with its letters of ASCII in lower case. */
+std::string lower_case(std::string text);
+
 /** @p value as printf's @p pattern ("%.3g mm") has it: one conversion of a
     double, at most 63 characters in all. */
 std::string formatted(const char *pattern, const double value);

@@ -1,6 +1,8 @@
 #ifndef sabot_study_study_file_h
 #define sabot_study_study_file_h
 
+#include "sabot/base/parameter_file.h"
+
 #include <limits>
 #include <string>
 #include <utility>
@@ -8,13 +10,6 @@
 
 namespace sabot
 {
-class Parameters;
-}
-
-namespace sabot
-{
-class ParameterFile;
-
 /** A parameter of a study: one value sets one or more entries of the scene. */
 struct StudyParameter
 {
@@ -41,6 +36,7 @@ struct StudyParameter
     double number;
   };
   std::vector<Value> values; // the first is the base
+  OverrideOrigin origin;
 };
 
 /** A quantity of result.json that a study looks at, and what an experiment has
@@ -69,6 +65,8 @@ struct StudyRun
   /** 16 digits of the SHA-256 of the program's version and the expanded
       parameters: the name of the run's folder. */
   std::string key;
+  /** Of each override, in the study file. */
+  std::vector<OverrideOrigin> origins = {};
 };
 
 /**
@@ -98,10 +96,11 @@ struct StudyFile
   /** @p overrides: "Section/Name=value" of the study's own entries. */
   StudyFile(const std::string &file, const std::vector<std::string> &overrides);
 
-  std::string title, scene;                 // scene: the base's file
-  bool is_grid;                             // all combinations
-  unsigned int n_processes, n_ranks;        // at a time; of each run
-  std::vector<std::string> fixed;           // overrides of every run
+  std::string title, scene;          // scene: the base's file
+  bool is_grid;                      // all combinations
+  unsigned int n_processes, n_ranks; // at a time; of each run
+  std::vector<std::string> fixed;    // overrides of every run
+  OverrideOrigin origin_of_fixed;
   bool has_pictures;                        // of sections through the runs
   std::string picture_field, picture_times; // as `sabot picture` takes them
   std::vector<StudyParameter> parameters;

@@ -3,7 +3,6 @@
 
 #include "sabot/base/text.h"
 
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -24,9 +23,7 @@ std::string ending_of(const std::string &file)
   std::string ending = std::filesystem::path(file).extension().string();
   if (!ending.empty())
     ending.erase(0, 1);
-  for (char &c : ending)
-    c = std::tolower(static_cast<unsigned char>(c));
-  return ending;
+  return lower_case(ending);
 }
 
 /** A folder that goes with its content. */

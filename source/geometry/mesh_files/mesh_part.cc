@@ -102,14 +102,8 @@ void keep_cells(FileMesh &mesh, const std::vector<FileIndex> &cells)
 bool is_called(const FileMesh::CellSet &set, const std::string &name,
                const bool by_case)
 {
-  const auto lower = [](std::string text)
-  {
-    for (char &c : text)
-      c = std::tolower(static_cast<unsigned char>(c));
-    return text;
-  };
   return by_case ? set.name == name || set.also == name
-                 : lower(set.name) == lower(name);
+                 : lower_case(set.name) == lower_case(name);
 }
 
 /** The set called @p name; 0 is also the cells that are in none. */

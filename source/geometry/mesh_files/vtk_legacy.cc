@@ -5,7 +5,6 @@
 #include "sabot/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace sabot
@@ -28,13 +27,6 @@ int size_of(const std::string &type)
       {"float", -4},        {"double", -8}};
   const auto found = sizes.find(type);
   return found == sizes.end() ? 0 : found->second;
-}
-
-std::string lower(std::string text)
-{
-  for (char &c : text)
-    c = std::tolower(static_cast<unsigned char>(c));
-  return text;
 }
 
 class Legacy
@@ -67,7 +59,7 @@ private:
                   "version 4.2");
     is_old = *version < 5.;
     text.line();
-    const std::string form = lower(std::string(text.line()));
+    const std::string form = lower_case(std::string(text.line()));
     if (form != "ascii" && form != "binary")
       text.refuse("the third line is neither ASCII nor BINARY");
     is_binary = form == "binary";
@@ -78,7 +70,7 @@ private:
 
   std::string type()
   {
-    const std::string name = lower(std::string(text.word()));
+    const std::string name = lower_case(std::string(text.word()));
     if (size_of(name) == 0)
       text.refuse("numbers of a type that is not known");
     return name;
@@ -131,10 +123,10 @@ private:
   /** False where nothing behind it is needed any more. */
   bool read_section()
   {
-    const std::string key = lower(std::string(text.word()));
+    const std::string key = lower_case(std::string(text.word()));
     if (key == "dataset")
     {
-      if (lower(std::string(text.line())) != "unstructured_grid")
+      if (lower_case(std::string(text.line())) != "unstructured_grid")
         text.refuse("it holds no unstructured grid; save it as one (ParaView's "
                     "Append Datasets makes it)");
     }
@@ -168,10 +160,10 @@ private:
     if (!is_old)
     {
       text.line();
-      if (lower(std::string(text.word())) != "offsets")
+      if (lower_case(std::string(text.word())) != "offsets")
         text.refuse("OFFSETS are missing");
       grid.offsets = array<std::int64_t>(n, type());
-      if (lower(std::string(text.word())) != "connectivity")
+      if (lower_case(std::string(text.word())) != "connectivity")
         text.refuse("CONNECTIVITY is missing");
       grid.connectivity = array<std::int64_t>(size, type());
       return;
@@ -217,13 +209,13 @@ private:
     for (std::size_t i = 0; i < n; ++i)
     {
       std::string name(text.word());
-      while (lower(name) == "metadata")
+      while (lower_case(name) == "metadata")
       {
         skip_metadata();
         name = text.word();
       }
       const std::size_t width = count(0), n_tuples = count(0);
-      const std::string of = lower(std::string(text.word()));
+      const std::string of = lower_case(std::string(text.word()));
       if (size_of(of) == 0) // text, bits
         return false;
       text.expect(n_tuples, std::max<std::size_t>(width, 1));
@@ -248,7 +240,8 @@ private:
                     "\" is none of the format");
       return false; // the mesh is complete, and the rest not needed
     }
-    const std::string name(text.word()), of = lower(std::string(text.word()));
+    const std::string name(text.word()),
+        of = lower_case(std::string(text.word()));
     if (size_of(of) == 0)
       return false;
     std::uint64_t width = found->second;

@@ -17,9 +17,7 @@ std::string beside(const ParameterFile &file, const std::string &path,
     throw InputError(path, "needs the name of a mesh file");
   if (name[0] == '/')
     return name;
-  const std::string origin = file.origin(path);
-  const std::string from =
-      origin.compare(0, 5, "--set") == 0 ? file.file_name : origin;
+  const std::string from = file.file_of(path);
   const std::size_t slash = from.find_last_of('/');
   const std::string relative =
       slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
