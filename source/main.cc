@@ -68,18 +68,6 @@ bool is_first_rank()
   return rank == 0;
 }
 
-/** "file:line: message" of bad input. */
-std::string located(const InputError &error, const ParameterFile &file)
-{
-  const std::string message = error.what();
-  if (error.parameter.empty())
-    return message;
-  const std::string origin = file.origin(error.parameter);
-  if (message.compare(0, origin.size(), origin) == 0)
-    return message;
-  return origin + ": " + error.parameter + ": " + message;
-}
-
 /** Build the scene of @p file and do @p work with it; what is wrong with the
     scene is told with the file's lines. */
 template <typename Work>
@@ -93,7 +81,7 @@ ExitCode with_scene(const ParameterFile &file, const Work &work)
   }
   catch (const InputError &error)
   {
-    throw InputError("", located(error, file));
+    throw InputError("", file.located(error));
   }
 }
 
@@ -113,6 +101,12 @@ ExitCode run_scene(const Arguments &arguments)
       });
 }
 
+void print_notes(const Scene &scene)
+{
+  for (const std::string &note : scene.notes)
+    std::cout << note << "\n";
+}
+
 ExitCode check_scene(const std::string &name,
                      const std::vector<std::string> &overrides)
 {
@@ -127,8 +121,7 @@ ExitCode check_scene(const std::string &name,
                         return ExitCode::done;
                       for (const std::string &warning : scene.warnings)
                         std::cout << "warning: " << warning << "\n";
-                      for (const std::string &note : scene.notes)
-                        std::cout << note << "\n";
+                      print_notes(scene);
                       std::cout << name << " is valid:";
                       for (const auto &body : scene.bodies)
                         std::cout << " " << body->name << " ("
@@ -179,6 +172,7 @@ ExitCode plan_scene(const Arguments &arguments)
                         return ExitCode::done;
                       add_warnings(physics, scene);
                       physics.warnings = scene.warnings;
+                      print_notes(scene);
                       std::cout << to_text(physics, cost) << std::flush;
                       if (!arguments.json_file.empty())
                         write_text(arguments.json_file,
@@ -422,9 +416,9 @@ bool is_unknown_command(const CLI::App &app, const int argc, char **argv)
   if (word[0] == '-' ||
       std::find(commands.begin(), commands.end(), word) != commands.end())
     return false;
-  std::cerr << "error: there is no command \"" << word << "\"; did you mean \""
-            << nearest_name(word, commands)
-            << "\"? `sabot --help` lists them\n";
+  const std::string meant = suggestion(word, commands);
+  std::cerr << "error: there is no command \"" << word << "\"" << meant
+            << (meant.empty() ? ";" : "") << " `sabot --help` lists them\n";
   return true;
 }
 } // namespace

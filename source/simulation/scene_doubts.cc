@@ -1,6 +1,8 @@
 // What a scene says that can hardly be meant, for check, plan and run.
 #include "sabot/simulation/scene_checks.h"
 
+#include "sabot/base/text.h"
+
 #include <algorithm>
 
 namespace sabot
@@ -40,6 +42,10 @@ void warn_of_doubts(const ParameterFile &file,
   append(scene.warnings, motion.forgotten_planes());
   append(scene.warnings, motion.zones_left_behind());
   append(scene.warnings, doubtful_end_time(scene));
+  if (!file.is_set("End time"))
+    scene.notes.push_back(
+        formatted("\"End time\" is not set: the run ends after %.4g s",
+                  scene.settings.end_time));
   append(scene.warnings, slips_of_entries(file, outlines, scene));
   append(scene.warnings, slips_of_loads(file, scene));
   append(scene.warnings, slips_of_zones(file, scene));
