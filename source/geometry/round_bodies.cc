@@ -216,7 +216,10 @@ double nose_radius(const ProjectileSpecification &p, const double z)
   if (p.nose == Nose::conical)
     return R * (1. - z / L);
   if (p.nose == Nose::spherical)
-    return R * std::sqrt(std::max(0., 1. - z * z / (L * L)));
+  {
+    const double ball = (R * R + L * L) / (2. * L), height = ball - L + z;
+    return std::sqrt(std::max(0., (ball - height) * (ball + height)));
+  }
   const double S = (R * R + L * L) / (2. * R);
   return std::max(0., std::sqrt(S * S - z * z) - (S - R));
 }

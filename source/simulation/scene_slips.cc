@@ -39,6 +39,32 @@ public:
                     ": is the unit deg missing (a number alone is in rad)?");
   }
 
+  /** What belongs to a rotation that is none. */
+  void look_at_rotation(const std::string &body)
+  {
+    const std::string start = "Bodies/" + body + "/";
+    if (file.is_set(start + "Rotation angle") ||
+        file.is_set(start + "Yaw pitch roll"))
+      return;
+    for (const std::string entry : {"Rotation axis", "Rotation center"})
+      if (file.is_set(start + entry))
+        say(start + entry, "has no effect without \"Rotation angle\"");
+  }
+
+  /** As many cells stand along a nose as along half a ball. */
+  void look_at_nose(const std::string &body)
+  {
+    constexpr double most = 3.5; // radii, an ogive of caliber 3.3
+    const std::string start = "Bodies/" + body + "/",
+                      path = start + "Nose length";
+    const std::optional<double> length = number(path),
+                                radius = number(start + "Radius");
+    if (length && radius && *length > most * *radius)
+      say(path, formatted("is %.3g times the radius", *length / *radius) +
+                    ": its cells are as much longer than across, whatever the "
+                    "\"Cell size\"; a mesh from a file may have more of them");
+  }
+
   void look_at_grading(const std::string &body)
   {
     const std::string path = "Bodies/" + body + "/Coarsest cell size";
@@ -138,6 +164,8 @@ std::vector<std::string> slips_of_entries(const ParameterFile &file,
   for (const auto &body : scene.bodies)
   {
     slips.look_at_angle(body->name);
+    slips.look_at_rotation(body->name);
+    slips.look_at_nose(body->name);
     slips.look_at_grading(body->name);
     if (body->facts().deforms)
       slips.look_at_sector(body->name);

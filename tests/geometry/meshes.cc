@@ -79,26 +79,26 @@ TEST(RoundBodies, noses_have_their_volume_and_length)
 {
   ProjectileSpecification p;
   p.radius = 5e-3;
-  p.shaft_length = 20e-3;
-  p.nose_length = 10e-3;
   p.cell_size = 1e-3;
-  const double shaft = M_PI * 25e-6 * 20e-3;
   // Tangent ogive: V = pi (L S^2 - L^3/3 - (S - R) S^2 asin(L/S)).
   const double S = 12.5e-3, L = 10e-3, R = 5e-3;
   const double ogive =
       M_PI * (L * S * S - L * L * L / 3. - (S - R) * S * S * std::asin(L / S));
-  const double expected[] = {M_PI * R * R * L / 3., ogive,
-                             2. / 3. * M_PI * R * R * L};
+  // A cap: V = pi H (3 R^2 + H^2)/6.
+  const double H = 3e-3, cap = M_PI * H * (3. * R * R + H * H) / 6.;
+  const double expected[] = {M_PI * R * R * L / 3., ogive, cap};
   int n = 0;
   for (const Nose nose : {Nose::conical, Nose::ogive, Nose::spherical})
     for (const bool positive : {true, false})
     {
       p.nose = nose;
+      p.nose_length = nose == Nose::spherical ? H : L;
+      p.shaft_length = 30e-3 - p.nose_length;
       p.axis = n % 3;
       p.towards_positive = positive;
       p.center = {{1e-3, 2e-3, 3e-3}};
       const HexMesh mesh = make_projectile(p);
-      const double exact = shaft + expected[n / 2];
+      const double exact = M_PI * R * R * p.shaft_length + expected[n / 2];
       EXPECT_NEAR(volume(mesh), exact, 1e-8 * exact);
       double low = 1., high = -1.;
       for (const auto &x : mesh.nodes)

@@ -514,6 +514,69 @@ end
             self.assertIn('by "sabot %s"' % other, done.stdout)
             self.assertFalse(os.path.exists(os.path.join(WORK, "none")))
 
+    def test_a_nose_is_what_it_is_called(self):
+        def nose(kind, length):
+            return scene({"rod": {
+                "Geometry": "projectile", "Radius": "2 mm", "Length": "6 mm",
+                "Nose": kind, "Nose length": length, "Cell size": "1 mm",
+                "Material": "steel"}})
+        for kind, length in (("spherical", "2 mm"), ("spherical", "1 mm"),
+                             ("ogive", "2 mm"), ("conical", "1 mm")):
+            self.assertWarns(nose(kind, length))
+        self.assertIn("10 times the radius", " ".join(
+            self.warnings(nose("ogive", "20 mm"))))
+        self.assertRefused(nose("spherical", "2.1 mm"), "Bodies/rod/Nose length",
+                           "at most as long as the radius")
+        self.assertRefused(nose("ogive", "1.9 mm"), "Bodies/rod/Nose length",
+                           "at least as long as its radius")
+
+    def test_entries_of_a_shape_that_do_not_act(self):
+        def warns(change, *parts):
+            self.assertWarns(scene({"block": {**BLOCK, **change}}), *parts)
+        warns({"Rotation axis": "1, 0, 0"}, "no effect without")
+        warns({"Rotation center": "0 mm, 0 mm, 1 mm"}, "no effect without")
+        warns({"Rotation axis": "1, 0, 0", "Rotation angle": "30 deg"})
+        warns({"Rotation center": "0 mm, 0 mm, 1 mm",
+               "Yaw pitch roll": "30 deg, 0 deg, 0 deg"})
+        warns({"Refined zone size": "0 mm, 0 mm, 0 mm"})
+        self.assertRefused(
+            scene({"block": {**BLOCK, "Refined zone size": "2 mm, 0 mm, 2 mm"}}),
+            "Bodies/block/Refined zone size", "all three")
+
+    def test_advice_on_hourglass_energy_is_what_is_not_done_already(self):
+        ball = {"Geometry": "sphere", "Radius": "2.5 mm", "Cell size": "1 mm",
+                "Center": "0 mm, 0 mm, 2.8 mm", "Material": "steel",
+                "Initial velocity": "0 m/s, 0 m/s, -20 m/s"}
+        out = os.path.join(WORK, "hourglass")
+        for control, advised in (("stiffness", False), ("viscous", True)):
+            text = scene({"plate": dict(PLATE, Discretization="rigid",
+                                        Motion="prescribed"),
+                          "ball": {**ball, "Hourglass control": control}},
+                         {"impact": {"Bodies": "plate, ball"}})
+            shutil.rmtree(out, ignore_errors=True)
+            done = sabot("run", write("scene.prm", text), "-o", out)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            said = [line for line in done.stdout.splitlines()
+                    if "hourglass energy of body" in line]
+            self.assertEqual(len(said), 1, done.stdout)
+            self.assertIn("warning: ", said[0])
+            self.assertIn("\"Integration = B-bar\"", said[0])
+            self.assertEqual("\"Hourglass control = stiffness\"" in said[0],
+                             advised, said[0])
+
+    def test_the_end_time_of_a_scene_that_sets_none_is_said(self):
+        said = "\"End time\" is not set: the run ends after 0.0001 s"
+        text = scene({"plate": PLATE})
+        path = write("scene.prm", text.replace("set End time = 30 us\n", ""))
+        out = os.path.join(WORK, "no-end")
+        shutil.rmtree(out, ignore_errors=True)
+        for command in (("check", path), ("plan", path),
+                        ("run", path, "-o", out)):
+            done = sabot(*command)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual(done.stdout.count(said), 1, done.stdout)
+        self.assertNotIn(said, sabot("check", write("scene.prm", text)).stdout)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)

@@ -24,7 +24,7 @@ enum class Nose
 {
   conical,  // r = R (1 - z/L)
   ogive,    // tangent: r = sqrt(S^2 - z^2) - (S - R), S = (R^2 + L^2)/(2 R)
-  spherical // r = R sqrt(1 - (z/L)^2)
+  spherical // a cap: r = sqrt(S^2 - (S - L + z)^2), S = (R^2 + L^2)/(2 L)
 };
 
 /** A cylinder with a nose. */
@@ -45,7 +45,7 @@ struct ProjectileSpecification
  * the shaft, so that no cell degenerates at the tip. Scaled across the axis to
  * the exact volume (that of the nose by Simpson's rule). Boundary ids: 0 the
  * flat end, 1 the rest of the surface, 2 and 3 the planes of a cut. @pre A
- * tangent ogive is at least as long as its radius.
+ * tangent ogive is at least as long as its radius, a spherical nose at most.
  */
 HexMesh make_projectile(const ProjectileSpecification &specification);
 } // namespace sabot

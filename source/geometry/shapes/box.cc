@@ -3,6 +3,8 @@
 #include "sabot/geometry/mesh_generator.h"
 #include "sabot/geometry/shape.h"
 
+#include <algorithm>
+
 namespace sabot
 {
 const std::array<const char *, 6> box_faces = {
@@ -88,8 +90,12 @@ private:
       return;
     const auto refined = get_vector(prm, "Refined zone size");
     // A length of 0 was a word for none.
-    if (!(refined[0] > 0. && refined[1] > 0. && refined[2] > 0.))
+    const auto n_none = std::count(refined.begin(), refined.end(), 0.);
+    if (n_none == 3)
       return;
+    if (n_none > 0)
+      throw InputError(request.path + "/Refined zone size",
+                       "is 0 along an axis; give all three edge lengths");
     if (box.has_zone)
       throw InputError(request.path + "/Refined zone size",
                        "a body has one zone, and \"" + request.carving->zone +

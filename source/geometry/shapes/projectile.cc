@@ -18,9 +18,13 @@ public:
                       "Length of the shaft, without the nose.");
     prm.declare_entry("Axis", "z", one_of("x|y|z|-x|-y|-z"),
                       "Where the nose points.");
-    prm.declare_entry("Nose", "ogive", one_of("ogive|conical|spherical"),
-                      "Shape of the nose; the ogive is tangent to the shaft.");
-    prm.declare_entry("Nose length", "1 mm", length, "Length of the nose.");
+    prm.declare_entry(
+        "Nose", "ogive", one_of("ogive|conical|spherical"),
+        "Shape of the nose; the ogive is tangent to the shaft, the "
+        "spherical one a cap of a ball.");
+    prm.declare_entry("Nose length", "1 mm", length,
+                      "Length of the nose: of an ogive at least the radius, of "
+                      "a spherical one at most, then half a ball.");
     Sector::declare(prm, "projectile",
                     "half keeps the positive side of the axis that follows the "
                     "projectile's (x after z), quarter that of the other one, "
@@ -57,6 +61,11 @@ public:
       throw InputError(request.path + "/Nose length",
                        "a tangent ogive is at least as long as its radius; "
                        "use a spherical nose or a longer one");
+    if (projectile.nose == Nose::spherical &&
+        projectile.nose_length > (1. + 1e-9) * projectile.radius)
+      throw InputError(request.path + "/Nose length",
+                       "a spherical nose is at most as long as the radius, "
+                       "then half a ball; use an ogive for a longer one");
     projectile.axis = axis.back() - 'x';
     projectile.towards_positive = axis[0] != '-';
     projectile.center = get_vector(prm, "Center");
