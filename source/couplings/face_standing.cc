@@ -194,8 +194,8 @@ std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec p,
 {
   const double tie = 1e-9 * node.spacing,
                from_node = norm(p - halo.position[node.slot]);
-  std::ptrdiff_t first = -1;
   MeanNormal mean;
+  feet.clear();
   for (const std::size_t f : faces_within(node, reach + from_node))
   {
     FaceHit here;
@@ -207,14 +207,16 @@ std::ptrdiff_t FaceStanding::hit(const NearFaces &node, const Vec p,
     if (std::abs(here.ahead) < std::abs(found.ahead) - tie)
     {
       mean = MeanNormal();
+      feet.clear();
       found = here;
-      first = f;
     }
     mean.add(normals.of_face(f, here.weight));
+    feet.push_back({f, here.weight});
   }
-  if (first >= 0)
-    normal = mean.value();
-  return first;
+  if (feet.empty())
+    return -1;
+  normal = mean.value();
+  return feet.front().face;
 }
 
 std::ptrdiff_t FaceStanding::stand(const NearFaces &node,
@@ -241,8 +243,8 @@ std::ptrdiff_t FaceStanding::stand(const NearFaces &node,
     if (f < 0)
       return repeat == 0 ? -1 : at;
     at = f;
-    projection.gap = projection.along =
-        -found.ahead - bulge_below(node, f, found.weight);
+    feet_of_node = feet;
+    projection.gap = projection.along = -found.ahead - bulge_below_feet(node);
     projection.normal = projection.face_normal = n;
     projection.weight = found.weight;
     projection.distance_square = found.ahead * found.ahead;
@@ -269,12 +271,21 @@ double FaceStanding::bulge_below(const NearFaces &node, const std::size_t face,
   return part > 0. ? part * normals.bulge(face, weight) : 0.;
 }
 
+double FaceStanding::bulge_below_feet(const NearFaces &node) const
+{
+  double sum = 0.;
+  for (const Foot &foot : feet)
+    sum += bulge_below(node, foot.face, foot.weight);
+  return sum / feet.size();
+}
+
 PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
                                        std::ptrdiff_t &face,
                                        FaceProjection &standing) const
 {
   const NodeAbove above = {node.slot, -standing.gap, standing.normal,
-                           std::size_t(face), standing.weight};
+                           feet_of_node};
+  const Foot first = {std::size_t(face), standing.weight};
   PressingPlace place = find_pressing_place(halo, corners, normals, above);
   if (place.shares.empty())
     return place;
@@ -294,7 +305,7 @@ PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
       break;
     face = below;
     standing.weight = found.weight;
-    depth = found.ahead + bulge_below(node, below, found.weight) + place.bulge;
+    depth = found.ahead + bulge_below_feet(node) + place.bulge;
   }
   // The other surface was continued from below the node: on crumpled metal and
   // beyond rims it is not where that leads.
@@ -307,8 +318,8 @@ PressingPlace FaceStanding::find_place(const NearFaces &node, const Side &side,
     place = find_pressing_place(halo, corners, normals, above, trust);
     if (place.shares.empty())
     {
-      face = above.face;
-      standing.weight = above.foot;
+      face = first.face;
+      standing.weight = first.weight;
       return place;
     }
     place.normal = normal;

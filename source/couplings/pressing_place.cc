@@ -30,6 +30,7 @@ struct Above
   // Of the other surface at the node's foot.
   Vec n = {}; // round normal
   Mat curvature = Mat::zero();
+  double roundness = 0.;
 
   Vec turning(const Vec way) const { return curvature * way; }
 };
@@ -174,9 +175,29 @@ struct Pressing
 bool find_other(Above &above)
 {
   const NodeAbove &node = above.node;
-  above.curvature = above.normals.curvature(node.face, node.foot);
-  for (int a = 0; a < 4; ++a)
-    above.n += node.foot[a] * above.normals.round_normal(node.face, a);
+  const double part = 1. / node.feet.size();
+  for (const Foot &foot : node.feet)
+  {
+    above.curvature = above.curvature +
+                      part * above.normals.curvature(foot.face, foot.weight);
+    for (int a = 0; a < 4; ++a)
+    {
+      above.n += foot.weight[a] * above.normals.round_normal(foot.face, a);
+      above.roundness +=
+          part * foot.weight[a] * above.normals.roundness(foot.face, a);
+    }
+  }
+  // The other faces around a foot on a plane of symmetry are images.
+  for (const unsigned int axis : above.normals.axes_across(node.slot))
+  {
+    above.n[axis] = 0.;
+    for (unsigned int d = 0; d < 3; ++d)
+      if (d != axis)
+      {
+        above.curvature.set(d, axis, 0.);
+        above.curvature.set(axis, d, 0.);
+      }
+  }
   const double length = norm(above.n);
   if (length > 0.)
     above.n *= 1. / length;
@@ -238,11 +259,9 @@ find_pressing_place(const NodeHalo &halo,
   if (!(bulge > 0.) || !(node.depth < deep * bulge))
     return place;
   // Of crumpled metal, and of facets too coarse for it, nothing is known.
-  double around_part = 0.;
-  for (int a = 0; a < 4; ++a)
-    around_part += node.foot[a] * normals.roundness(node.face, a);
-  around_part *=
-      trust * std::min(1., (deep - node.depth / bulge) / (deep - shallow));
+  const double around_part =
+      above.roundness * trust *
+      std::min(1., (deep - node.depth / bulge) / (deep - shallow));
   if (!(around_part > 0.))
     return place;
   Pressing all;

@@ -122,9 +122,9 @@ private:
   SmoothNormal normal_of_closest(const NearFaces &node, const Side &side,
                                  const FaceProjection &best) const;
   /** Where the line from @p p along @p n meets the node's faces of a side, at
-      the first place. @p mean: of the normals there, for at an edge faces that
-     have little in common say different ones. @return a face; -1: none is met.
-   */
+      the first place, which is then in feet. @p mean: of the normals there, for
+      at an edge faces that have little in common say different ones. @return a
+      face; -1: none is met. */
   std::ptrdiff_t hit(const NearFaces &node, const Vec p, const Vec n,
                      const Side &side, const double reach, FaceHit &found,
                      SmoothNormal &mean) const;
@@ -139,6 +139,8 @@ private:
       stand for a volume as wide as facets. */
   double bulge_below(const NearFaces &node, const std::size_t face,
                      const std::array<double, 4> &weight) const;
+  /** Mean of the feet of the last hit(). */
+  double bulge_below_feet(const NearFaces &node) const;
   /** The place with which a node that stands above @p face presses, which
       becomes the face below that place; @p standing follows. */
   PressingPlace find_place(const NearFaces &node, const Side &side,
@@ -202,6 +204,8 @@ private:
   mutable std::vector<std::uint32_t> kept;
   mutable std::size_t kept_for = -1;
   mutable double kept_reach = -1.; // [m]
+  // Of the last hit(), and below the node that stand() has found
+  mutable std::vector<Foot> feet, feet_of_node;
 };
 } // namespace sabot
 

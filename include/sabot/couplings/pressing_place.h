@@ -35,14 +35,22 @@ struct PressingPlace
   double acting_depth() const { return fade * depth; }
 };
 
+/** A place on a face. */
+struct Foot
+{
+  std::size_t face;
+  std::array<double, 4> weight; // of its corners
+};
+
 /** A node above another surface. */
 struct NodeAbove
 {
   std::size_t slot;
-  double depth;               // of the node itself [m]; may be negative
-  Vec normal;                 // common, outward of the other surface
-  std::size_t face;           // of the other surface, below the node
-  std::array<double, 4> foot; // weights of its corners
+  double depth; // of the node itself [m]; may be negative
+  Vec normal;   // common, outward of the other surface
+  /** Of the other surface, below the node: one place, on all faces that share
+      it, for each of them takes the surface there as round in its own way. */
+  const std::vector<Foot> &feet;
 };
 
 /**
