@@ -152,7 +152,7 @@ void check_ride(std::vector<Check> &checks, const Track &t)
        t.mu > 0. ? "what sticks takes nothing" : "nothing takes any"});
   checks.push_back(
       {what + "spin times radius over the speed", t.mu > 0. ? 1. : 0., r.spin,
-       t.mu > 0. ? 0.03 : 0.1, "1",
+       t.mu > 0. ? 0.03 : 0.01, "1",
        t.mu > 0. ? "it rolls" : "it presses below the center, but for facets"});
   checks.push_back({what + "sideways over the speed", 0., r.sideways, 0.02, "1",
                     "symmetry"});
@@ -181,6 +181,7 @@ std::vector<Check> tracks_quick()
   check_ride(checks, with(slope, true, false));
   check_ride(checks, with(trough, false, false));
   check_ride(checks, with(slippery, true, true));
+  check_ride(checks, with(slippery, false, true));
   return checks;
 }
 

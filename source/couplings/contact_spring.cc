@@ -21,8 +21,8 @@ void SpringOptions::parse_parameters(const Parameters &prm)
   stiffness_scale = get_quantity(prm, "Stiffness scale");
 }
 
-double backed_part(ContactMemory &memory, const AskingSpring &spring,
-                   const double dt)
+SpringClaim claim_of(ContactMemory &memory, const AskingSpring &spring,
+                     const double dt)
 {
   const Vec first = spring.first_velocity != nullptr ? *spring.first_velocity
                                                      : spring.velocity;
@@ -40,16 +40,33 @@ double backed_part(ContactMemory &memory, const AskingSpring &spring,
                  motion = 0.5 * spring.stiffness * work * work / square;
     available += std::min(1., available / held) * motion / (1. - phi);
   }
-  available = std::max(0., available);
-  double part = 1.;
-  if (work + kick > available)
-  {
-    const double root = std::sqrt(work * work + 4. * kick * available);
-    part =
-        work > 0. ? 2. * available / (work + root) : 0.5 * (root - work) / kick;
-  }
-  memory.stored -= 0.5 * part * work;
+  return {work, kick, available};
+}
+
+double part_of(const SpringClaim &claim)
+{
+  const double work = claim.work, kick = claim.kick,
+               available = std::max(0., claim.available);
+  if (!(work + kick > available))
+    return 1.;
+  const double root = std::sqrt(work * work + 4. * kick * available);
+  return work > 0. ? 2. * available / (work + root)
+                   : 0.5 * (root - work) / kick;
+}
+
+void give(ContactMemory &memory, const AskingSpring &spring,
+          const SpringClaim &claim, const double part)
+{
+  memory.stored -= 0.5 * part * claim.work;
   memory.spring = part * spring.force;
+}
+
+double backed_part(ContactMemory &memory, const AskingSpring &spring,
+                   const double dt)
+{
+  const SpringClaim claim = claim_of(memory, spring, dt);
+  const double part = part_of(claim);
+  give(memory, spring, claim, part);
   return part;
 }
 } // namespace sabot

@@ -44,6 +44,8 @@ struct ContactPoint
   Vec friction;    // along the surface [N]
   double part;     // that the work of the spring bears, times fade
 
+  /** Whether it presses with a place between nodes (PressingPlace::shares). */
+  bool is_place() const { return first_of_other > first_touched; }
   /** Of the two velocities [m/s]. */
   double largest_speed() const
   {

@@ -135,6 +135,20 @@ struct AskingSpring
 double backed_part(ContactMemory &memory, const AskingSpring &spring,
                    const double dt);
 
+/** What the force of a spring, in full, would take [J]: f . v dt, what it is
+    worth in the next step, and what backs both. */
+struct SpringClaim
+{
+  double work = 0., kick = 0., available = 0.;
+};
+/** The three steps of backed_part(), for springs that are backed together: the
+    last force has acted; the part; this one acts. */
+SpringClaim claim_of(ContactMemory &memory, const AskingSpring &spring,
+                     const double dt);
+double part_of(const SpringClaim &claim);
+void give(ContactMemory &memory, const AskingSpring &spring,
+          const SpringClaim &claim, const double part);
+
 /**
  * Friction on a node: a spring along the surface that gives way at the
  * @p largest force, Coulomb's of an elastic bond (Cundall and Strack 1979),

@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,11 @@ namespace sabot
  * took, or could not be given back while it was there, goes to springs that
  * lack it when nothing else does, but never makes any stiffer: what slides
  * past faces that close in is held, and a contact as a whole gives no energy.
+ * Places of round surfaces (PressingPlace) without friction share the force,
+ * too: where the work does not suffice for all, each gets the same part of its
+ * force, all together what each by itself would get and no more than the work
+ * of all bears. Nodes that come in have taken none yet, so their springs would
+ * stand back at one end of the contact, and the rest would turn what slides.
  * Between flat surfaces nothing is shared, for there each spring has k d^2/2 to
  * round-off.
  */
@@ -58,6 +64,9 @@ private:
     double left = 0.; // E [J]
     double lost = 0.; // by damping and otherwise; negative: it gave more [J]
     double stiffer = 1.;
+    double n_places = 0.; // that pressed in the last step
+    /** What was given beyond what was taken, negative [J]. */
+    double owed() const { return std::min(0., left + lost); }
 
     /** What the springs hold in all, lack and leave, and what was damped in a
         step [J]. @return the part of what they lack that they get. */
@@ -67,12 +76,28 @@ private:
   struct Sums
   {
     ExactSum held, lacking, surplus; // U, U - stored, stored - U [J]
-    ExactSum damped;
+    ExactSum damped, places;
   };
+  /** What a point's spring asks for and gets. */
+  struct Asked
+  {
+    AskingSpring spring;
+    SpringClaim claim;
+    bool is_new;
+    double part;
+  };
+  /** Each by its own books. */
+  void ask(std::vector<ContactPoint> &points, const double dt);
+  /** The places of a pair get equal parts, where there were any in the last
+      step: nobody else waits for a message. Collective. */
+  void share_between_places(const std::vector<ContactPoint> &points);
+  /** Those that lack work from those that have more. Collective. */
+  void fill(std::vector<ContactPoint> &points, std::vector<Sums> &sums);
 
   std::vector<std::pair<int, int>> pairs; // ascending
   MPI_Comm communicator;
-  std::vector<Pot> pots; // parallel to pairs
+  std::vector<Pot> pots;    // parallel to pairs
+  std::vector<Asked> asked; // parallel to the points of the step
 };
 } // namespace sabot
 

@@ -49,7 +49,7 @@ struct CheckpointHeader
 namespace checkpoint_format
 {
 /** Grows when older programs could not read what is written. */
-constexpr unsigned int number = 4;
+constexpr unsigned int number = 5;
 std::string dataset_name(const int rank, const std::size_t block);
 /** Whether a line has a dataset of its own. */
 inline bool is_stored(const int rank, const StateLine &line)
