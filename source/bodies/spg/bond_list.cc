@@ -339,41 +339,59 @@ void BondList::reconnect()
       neighbor.size(), std::move(turned));
 }
 
+bool BondList::remove_from_row(const std::size_t i,
+                               const std::vector<char> &dead)
+{
+  std::size_t to = begin(i);
+  const std::size_t last = end(i);
+  for (std::size_t from = begin(i); from < last; ++from)
+  {
+    if (dead[from])
+      continue;
+    origin[to] = from;
+    if (to != from)
+    {
+      neighbor[to] = neighbor[from];
+      reverse[to] = reverse[from];
+      weight[to] = weight[from];
+      scaled_weight[to] = scaled_weight[from];
+      if (neighbor[to] < n_owned)
+        reverse[reverse[to]] = to;
+    }
+    ++to;
+  }
+  count[i] = to - begin(i);
+  const bool has_changed = to < last;
+  for (; to < last; ++to)
+  {
+    neighbor[to] = i;
+    reverse[to] = to;
+    weight[to] = scaled_weight[to] = 0.f;
+  }
+  return has_changed;
+}
+
 bool BondList::remove(const std::vector<char> &dead)
 {
-  int has_changed = 0;
+  bool has_changed = false;
   origin.resize(neighbor.size());
   for (std::size_t i = 0; i < n_owned; ++i)
-  {
-    std::size_t to = begin(i);
-    const std::size_t last = end(i);
-    for (std::size_t from = begin(i); from < last; ++from)
-    {
-      if (dead[from])
-      {
-        has_changed = 1;
-        continue;
-      }
-      origin[to] = from;
-      if (to != from)
-      {
-        neighbor[to] = neighbor[from];
-        reverse[to] = reverse[from];
-        weight[to] = weight[from];
-        scaled_weight[to] = scaled_weight[from];
-        if (neighbor[to] < n_owned)
-          reverse[reverse[to]] = to;
-      }
-      ++to;
-    }
-    count[i] = to - begin(i);
-    for (; to < last; ++to)
-    {
-      neighbor[to] = i;
-      reverse[to] = to;
-      weight[to] = scaled_weight[to] = 0.f;
-    }
-  }
+    has_changed |= remove_from_row(i, dead);
+  return settle_removal(has_changed);
+}
+
+bool BondList::remove(const std::vector<char> &dead,
+                      const std::vector<std::uint32_t> &rows)
+{
+  bool has_changed = false;
+  origin.resize(neighbor.size());
+  for (const std::uint32_t i : rows)
+    has_changed |= remove_from_row(i, dead);
+  return settle_removal(has_changed);
+}
+
+bool BondList::settle_removal(int has_changed)
+{
   // Bonds that go or move at a rank's border change what is exchanged.
   MPI_Allreduce(MPI_IN_PLACE, &has_changed, 1, MPI_INT, MPI_MAX, communicator);
   int n_ranks;

@@ -295,7 +295,8 @@ void SpgBody::update_kernel_and_forces(const unsigned int step,
   AlignedVector<Vec> added(n);
   for (std::size_t i = 0; i < n; ++i)
     added[i] = nodal_state.force[i] - fields.own_force[i];
-  update_kernel(step, only_cracks);
+  if (!only_cracks || !may_update_cracks_alone(step) || !update_cracks(step))
+    update_kernel(step, only_cracks);
   evaluate_forces(no_step); // no problem where nothing is deformed yet
   for (std::size_t i = 0; i < n; ++i)
     nodal_state.force[i] += added[i];

@@ -48,6 +48,16 @@ void SpgStableStep::estimate_beside_cracks(const SpgParts &body,
   estimate(body, form, beside_cracks(body));
 }
 
+void SpgStableStep::estimate_beside(const std::vector<std::uint32_t> &some,
+                                    const SpgParts &body,
+                                    const Stabilization &form)
+{
+  std::vector<char> marked(body.nodes.size());
+  for (const std::uint32_t i : some)
+    marked[i] = 1;
+  estimate(body, form, with_neighbors(body, std::move(marked)));
+}
+
 void SpgStableStep::carry(const ParticleFields &fields)
 {
   for (std::size_t i = 0; i < step.size(); ++i)

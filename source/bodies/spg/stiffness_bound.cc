@@ -247,17 +247,22 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
 }
 } // namespace
 
-std::vector<char> beside_cracks(const SpgParts &body)
+std::vector<char> with_neighbors(const SpgParts &body, std::vector<char> marked)
 {
-  const std::size_t n = body.nodes.n_owned;
-  std::vector<char> cracked(body.nodes.size()), beside(body.nodes.size());
-  for (std::size_t i = 0; i < n; ++i)
-    cracked[i] = body.failure.has_cracks(i);
-  body.exchange.update(cracked.data());
-  for (std::size_t i = 0; i < n; ++i)
-    beside[i] = is_near(body.bonds, cracked, i);
+  std::vector<char> beside(body.nodes.size());
+  body.exchange.update(marked.data());
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    beside[i] = is_near(body.bonds, marked, i);
   body.exchange.update(beside.data());
   return beside;
+}
+
+std::vector<char> beside_cracks(const SpgParts &body)
+{
+  std::vector<char> cracked(body.nodes.size());
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    cracked[i] = body.failure.has_cracks(i);
+  return with_neighbors(body, std::move(cracked));
 }
 
 std::vector<double> elastic_row_bounds(const SpgParts &body,

@@ -102,6 +102,10 @@ public:
       reverse[] follows, and where a bond of any rank went the exchange of
       ghosts' bonds is built anew. */
   bool remove(const std::vector<char> &dead);
+  /** The same where the caller knows the rows that have marks, @p rows of owned
+      particles, ascending; arrays follow by carry_rows(). */
+  bool remove(const std::vector<char> &dead,
+              const std::vector<std::uint32_t> &rows);
 
   /** Let an array over bonds follow the last connect() or remove(): values
       of bonds that stayed move to their new places, new bonds get zeros,
@@ -137,6 +141,20 @@ public:
         data[b] = none;
     }
     std::fill(data.begin() + capacity(), data.end(), none);
+    data.resize(n_with_ghosts());
+  }
+
+  /** carry() after remove() from these rows alone. */
+  template <typename Array>
+  void carry_rows(Array &data, const std::vector<std::uint32_t> &rows) const
+  {
+    const typename Array::value_type none = {};
+    for (const std::uint32_t i : rows)
+    {
+      for (std::size_t b = begin(i); b < end(i); ++b)
+        data[b] = data[origin[b]];
+      std::fill(data.begin() + end(i), data.begin() + row_start[i + 1], none);
+    }
     data.resize(n_with_ghosts());
   }
 
@@ -202,6 +220,11 @@ public:
   }
 
 private:
+  /** Close up row @p i. @return whether any of its bonds went. */
+  bool remove_from_row(const std::size_t i, const std::vector<char> &dead);
+  /** After removals on this rank or not: whether there were any on any rank,
+      which change what is exchanged. Collective. */
+  bool settle_removal(int has_changed);
   /** Finds reverse[] and the exchange of ghosts' bonds again. Collective. */
   void reconnect();
   /** reverse[] of bonds between owned particles. Throws std::logic_error where

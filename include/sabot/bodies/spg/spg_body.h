@@ -186,11 +186,24 @@ private:
       that is due. @p only_cracks: nothing else calls for the update, and only
       particles beside cracks get their stable steps anew. */
   void update_kernel(const unsigned int step, const bool only_cracks);
-  /** The same, with the forces of now in the end. What couplings had added
+  /** The same, or with @p only_cracks what cracks alone change where that will
+      do, with the forces of now in the end. What couplings had added
       to the body's forces is kept: the half kick that follows uses the sum,
       and the ledger counts its work. Collective. */
   void update_kernel_and_forces(const unsigned int step,
                                 const bool only_cracks);
+  /** Whether kernels may stay as they are where only bonds have failed: not at
+      regular updates, under policies that search, with convex functions. */
+  bool may_update_cracks_alone(const unsigned int step) const;
+  /** Bonds that failed go, and what that changes follows; kernels, X and all
+      that is away from them stay (doc/theory/spg.md, Kernel update).
+      Collective. @return false, and nothing is done, where the functions that
+      are left see too large a change since the last kernel update. */
+  bool update_cracks(const unsigned int step);
+  /** Functions of the rows that lose bonds go over to @p left, in the order of
+      BondFailure::marked_rows(), at the total F and volume of before. */
+  void take_functions(const std::vector<std::uint32_t> &rows,
+      const std::vector<ParticleApproximation::CrackedRow> &left);
   /** Forces of now, material advanced by @p dt; the body's part is kept.
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */

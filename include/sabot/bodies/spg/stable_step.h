@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -53,6 +54,10 @@ public:
   /** The same of the particles beside cracks only, whose bonds may be others
       than at the last update; all others keep their steps. Collective. */
   void estimate_beside_cracks(const SpgParts &body, const Stabilization &form);
+  /** The same of @p some owned particles, which have lost bonds since the last
+      update, and their neighbors. Collective. */
+  void estimate_beside(const std::vector<std::uint32_t> &some,
+                       const SpgParts &body, const Stabilization &form);
   /** Before a kernel update: what has shortened steps since the last one stays
       in those that are not estimated anew, dt/sqrt(max(1, |F^-1|^2 - 2)) as
       within a step (step_as_stiff_as_now()). Local. */

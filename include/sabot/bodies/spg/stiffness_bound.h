@@ -49,8 +49,11 @@ double stiffness_share(const SpgParts &body, const std::size_t i);
 std::vector<double> elastic_row_bounds(const SpgParts &body,
                                        const std::vector<char> &wanted);
 
-/** Of owned particles and ghosts, those with cracks and those that share a bond
-    with one. Collective. */
+/** Of owned particles and ghosts, those that are marked and those that share a
+    bond with one. @p marked [n_local], of owned particles. Collective. */
+std::vector<char> with_neighbors(const SpgParts &body,
+                                 std::vector<char> marked);
+/** The same of those with cracks. Collective. */
 std::vector<char> beside_cracks(const SpgParts &body);
 } // namespace sabot
 

@@ -179,6 +179,38 @@ void ParticleApproximation::find_moments(BondList &bonds,
   has_grown.clear();
 }
 
+ParticleApproximation::CrackedRow ParticleApproximation::without_bonds(
+    const BondList &bonds, const ParticleFields &fields, const Vec *const x,
+    const std::size_t i, const std::vector<char> &dead) const
+{
+  const Vec *const X = fields.kernel_reference_position.data();
+  const Mat to_kernel = inverse(fields.kernel[i]);
+  Mat moment = Mat::zero(), change = Mat::zero();
+  CrackedRow row = {Mat::zero(), 0., true, Mat::identity()};
+  std::size_t n_bonds = 0;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+  {
+    if (dead[b])
+      continue;
+    const std::uint32_t j = bonds.neighbor[b];
+    const Vec dX = X[j] - X[i], xi = to_kernel * dX;
+    add_outer(moment, double(bonds.weight[b]) * xi, xi);
+    add_outer(change, double(bonds.weight[b]) * (x[j] - x[i] - dX), dX);
+    row.spread += bonds.scaled_weight[b] * norm_square(dX);
+    ++n_bonds;
+  }
+  int n_damped = 3;
+  if (n_bonds >= least_bonds)
+    row.moment_inverse =
+        transpose(to_kernel) *
+        damped_inverse(moment, lost_fraction * intact_eigenvalue[i], n_damped) *
+        to_kernel;
+  // What has been lost comes back at kernel updates only.
+  row.is_lost = n_damped > 0 || lost_direction[i];
+  row.gradient = Mat::identity() + change * row.moment_inverse;
+  return row;
+}
+
 void ParticleApproximation::visit_bonds(StateVisitor &visitor,
                                         const BondList &bonds,
                                         const StateRows &rows)

@@ -83,6 +83,7 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
   if (!criterion->can_be_met())
     return false;
   measure.resize(nodes.size());
+  forget_marks();
   is_marked.assign(bonds.capacity(), 0);
   crumbles.assign(nodes.n_owned, 0);
   if (!find_measure(bonds, fields, points, communicator))
@@ -106,6 +107,8 @@ bool BondFailure::find(const NodalState &nodes, const BondList &bonds,
       const bool here = measure[i] > critical,
                  stays = joins_crumbled && here && measure[j] > critical;
       is_marked[b] = !stays;
+      if (!stays && (with_marks.empty() || with_marks.back() != i))
+        with_marks.push_back(i);
       crumbles[i] |= here;
       any = true;
     }
@@ -143,7 +146,14 @@ bool BondFailure::remove(BondList &bonds)
   if (!criterion->can_be_met())
     return false;
   const bool has_changed = bonds.remove(is_marked);
-  is_marked.clear();
+  forget_marks();
+  return has_changed;
+}
+
+bool BondFailure::remove_from_rows(BondList &bonds)
+{
+  const bool has_changed = bonds.remove(is_marked, with_marks);
+  forget_marks();
   return has_changed;
 }
 

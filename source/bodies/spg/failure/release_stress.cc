@@ -27,7 +27,9 @@ void release_stress(SpgParts &body, const std::size_t i)
   body.residual_strength.release(s);
   for (int c = 0; c < 6; ++c)
     body.points.stress_row(c)[i] = s[c];
-  body.failure.loss[i] +=
-      body.fields.kernel_reference_volume[i] * (before - elastic_energy(s));
+  const ParticleFields &fields = body.fields;
+  const double V = fields.kernel_reference_volume[i] *
+                   determinant(fields.incremental_deformation_gradient[i]);
+  body.failure.loss[i] += V * (before - elastic_energy(s));
 }
 } // namespace sabot

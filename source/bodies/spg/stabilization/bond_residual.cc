@@ -77,6 +77,26 @@ public:
   void follow_functions(const SpgParts &body) override;
   void end_kernel_update(const SpgParts &body,
                          const std::vector<char> &was_lost) override;
+  void begin_crack_update(const SpgParts &body,
+                          const std::vector<std::uint32_t> &some) override
+  {
+    for (const std::uint32_t i : some)
+      settle_factor(body.bonds, i);
+  }
+  void carry_rows(const BondList &bonds,
+                  const std::vector<std::uint32_t> &rows) override
+  {
+    bonds.carry_rows(residual, rows);
+  }
+  void end_crack_update(const SpgParts &body,
+                        const std::vector<std::uint32_t> &rows) override
+  {
+    for (const std::uint32_t i : rows)
+    {
+      find_stiffness(body, i);
+      take_linear_part(body, i);
+    }
+  }
   double held_energy(const SpgParts &body, const std::size_t i) const override;
   void add_row_sums(const SpgParts &body,
                     std::vector<double> &sums) const override;
@@ -131,6 +151,13 @@ public:
   }
 
 private:
+  /** theta into the residuals of particle @p i. */
+  void settle_factor(const BondList &bonds, const std::size_t i);
+  /** k_N of particle @p i by its present functions. */
+  void find_stiffness(const SpgParts &body, const std::size_t i);
+  /** The linear part of the residuals of particle @p i out of them: it belongs
+      to F. */
+  void take_linear_part(const SpgParts &body, const std::size_t i);
   /** Into place @p k of the batch; @p k_N: of the particle. */
   void keep(const ResidualSums &sums, const double k_N, const std::size_t k);
 
@@ -243,31 +270,76 @@ void BondResidual::exchange(const SpgParts &body)
             previous_position.begin());
 }
 
+inline void BondResidual::settle_factor(const BondList &bonds,
+                                        const std::size_t i)
+{
+  if (factor[i] == 1.) // most have not yielded
+    return;
+  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    residual[b] = store_bond(factor[i] * load(residual[b]));
+  factor[i] = 1.;
+}
+
 void BondResidual::begin_kernel_update(const SpgParts &body)
 {
-  const BondList &bonds = body.bonds;
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
-  {
-    if (factor[i] == 1.) // most have not yielded
-      continue;
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      residual[b] = store_bond(factor[i] * load(residual[b]));
-    factor[i] = 1.;
-  }
+    settle_factor(body.bonds, i);
+}
+
+inline void BondResidual::find_stiffness(const SpgParts &body,
+                                         const std::size_t i)
+{
+  const ParticleApproximation &functions = body.approximation;
+  const double mu = body.points.law().shear_modulus(),
+               S = std::max(functions.spread[i],
+                            0.5 * functions.intact_spread[i]);
+  stiffness[i] =
+      functions.lost_direction[i] || S == 0.
+          ? 0.
+          : coefficient * mu * body.fields.kernel_reference_volume[i] / S;
 }
 
 void BondResidual::follow_functions(const SpgParts &body)
 {
-  const ParticleApproximation &functions = body.approximation;
-  const double mu = body.points.law().shear_modulus();
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    find_stiffness(body, i);
+}
+
+inline void BondResidual::take_linear_part(const SpgParts &body,
+                                           const std::size_t i)
+{
+  const BondList &bonds = body.bonds;
+  const std::uint32_t *const neighbor = bonds.neighbor.data();
+  const Vec *const X = body.fields.kernel_reference_position.data();
+  const std::size_t first = bonds.begin(i), last = bonds.packed_end(i);
+  const Vec Xi = X[i];
+  Pack dX[3], e[3], sum[3][3] = {};
+  const auto take = [&](const std::size_t b)
   {
-    const double S =
-        std::max(functions.spread[i], 0.5 * functions.intact_spread[i]);
-    stiffness[i] =
-        functions.lost_direction[i] || S == 0.
-            ? 0.
-            : coefficient * mu * body.fields.kernel_reference_volume[i] / S;
+    gather(X, neighbor + b, dX);
+    load_bonds(&residual[b], e);
+    for (int d = 0; d < 3; ++d)
+      dX[d] -= Xi[d];
+  };
+  for (std::size_t b = first; b < last; b += n_lanes)
+  {
+    take(b);
+    const Pack w = load_floats(&bonds.weight[b]);
+    for (int d = 0; d < 3; ++d)
+      for (int c = 0; c < 3; ++c)
+        sum[d][c] += w * e[d] * dX[c];
+  }
+  const Pack zero = {};
+  const Mat A = Mat{{sum_lanes(sum[0][0], sum[0][1], sum[0][2], zero),
+                     sum_lanes(sum[1][0], sum[1][1], sum[1][2], zero),
+                     sum_lanes(sum[2][0], sum[2][1], sum[2][2], zero)}} *
+                body.approximation.moment_inverse[i];
+  for (std::size_t b = first; b < last; b += n_lanes)
+  {
+    take(b);
+    for (int d = 0; d < 3; ++d)
+      e[d] -= A(d, 0) * dX[0] + A(d, 1) * dX[1] + A(d, 2) * dX[2];
+    store_bonds(&residual[b], e);
   }
 }
 
@@ -275,45 +347,13 @@ void BondResidual::end_kernel_update(const SpgParts &body,
                                      const std::vector<char> &was_lost)
 {
   const BondList &bonds = body.bonds;
-  const ParticleApproximation &functions = body.approximation;
-  const std::uint32_t *const neighbor = bonds.neighbor.data();
-  const Vec *const X = body.fields.kernel_reference_position.data();
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
-    // The linear part of the residual belongs to F, which starts anew.
-    const std::size_t first = bonds.begin(i), last = bonds.packed_end(i);
-    const Vec Xi = X[i];
-    Pack dX[3], e[3], sum[3][3] = {};
-    const auto take = [&](const std::size_t b)
-    {
-      gather(X, neighbor + b, dX);
-      load_bonds(&residual[b], e);
-      for (int d = 0; d < 3; ++d)
-        dX[d] -= Xi[d];
-    };
-    for (std::size_t b = first; b < last; b += n_lanes)
-    {
-      take(b);
-      const Pack w = load_floats(&bonds.weight[b]);
-      for (int d = 0; d < 3; ++d)
-        for (int c = 0; c < 3; ++c)
-          sum[d][c] += w * e[d] * dX[c];
-    }
-    const Pack zero = {};
-    const Mat A = Mat{{sum_lanes(sum[0][0], sum[0][1], sum[0][2], zero),
-                       sum_lanes(sum[1][0], sum[1][1], sum[1][2], zero),
-                       sum_lanes(sum[2][0], sum[2][1], sum[2][2], zero)}} *
-                  functions.moment_inverse[i];
-    for (std::size_t b = first; b < last; b += n_lanes)
-    {
-      take(b);
-      for (int d = 0; d < 3; ++d)
-        e[d] -= A(d, 0) * dX[0] + A(d, 1) * dX[1] + A(d, 2) * dX[2];
-      store_bonds(&residual[b], e);
-    }
+    take_linear_part(body, i);
     // Residuals that grew while they had no stiffness hold no energy.
-    if (was_lost[i] && !functions.lost_direction[i])
-      std::fill(residual.begin() + first, residual.begin() + last, BondVec{});
+    if (was_lost[i] && !body.approximation.lost_direction[i])
+      std::fill(residual.begin() + bonds.begin(i),
+                residual.begin() + bonds.packed_end(i), BondVec{});
   }
 }
 

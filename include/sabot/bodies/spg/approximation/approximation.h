@@ -57,6 +57,27 @@ public:
   void update(BondList &bonds, const ParticleFields &fields,
               const LagrangianKernel &kernel,
               AlignedVector<Mat> *second_derivatives);
+  /** What is left of a particle's functions where some of its bonds go and
+      kernels stay as they are. */
+  struct CrackedRow
+  {
+    Mat moment_inverse; // M^-1 [1/m^2]
+    double spread;      // S
+    bool is_lost;       // lost a direction, now or before
+    Mat gradient;       // F since the kernel update by these functions
+  };
+  /** Of owned particle @p i without the bonds that are marked in @p dead, at
+      the positions @p x [m]. Weights are those that are stored, so that bonds
+      which stay keep theirs. Least squares only. Local; changes nothing. */
+  CrackedRow without_bonds(const BondList &bonds, const ParticleFields &fields,
+                           const Vec *x, const std::size_t i,
+                           const std::vector<char> &dead) const;
+  void take(const std::size_t i, const CrackedRow &row)
+  {
+    moment_inverse[i] = row.moment_inverse;
+    spread[i] = row.spread;
+    lost_direction[i] = row.is_lost;
+  }
   /** Row sums of the mass matrix (Wu & Wu 2018, Eq. 11) of the convex
       functions as lumped masses of the owned nodes, whose present masses are
       rho V [kg]. After the first update() only. Collective. */

@@ -79,12 +79,22 @@ public:
       Collective. @return whether the list has changed, the same on all ranks.
    */
   bool remove(BondList &bonds);
+  /** The same for arrays that follow by BondList::carry_rows(). */
+  bool remove_from_rows(BondList &bonds);
+  /** Owned particles of which a bond is marked, ascending. */
+  const std::vector<std::uint32_t> &marked_rows() const { return with_marks; }
+  /** Per bond of the list, whether it is one of them. */
+  const std::vector<char> &marks() const { return is_marked; }
   /** Whether this bond of the list is one of them. */
   bool has_failed_now(const std::size_t bond) const
   {
     return !is_marked.empty() && is_marked[bond];
   }
-  void forget_marks() { is_marked.clear(); }
+  void forget_marks()
+  {
+    is_marked.clear();
+    with_marks.clear();
+  }
   /** There are other ghosts; n_local with them. Collective where particles may
       crumble. */
   void renew_ghosts(const ParticleExchange &exchange,
@@ -145,6 +155,7 @@ public:
     table.add("failure: heat of friction", friction_work);
     table.add("failure: measure", measure);
     table.add("failure: marked bonds", is_marked);
+    table.add("failure: marked rows", with_marks);
     table.add("failure: crumbling", crumbles);
     table.add("failure: crumbled", crumbled);
   }
@@ -158,6 +169,7 @@ private:
   const bool remembers_pairs;
   std::vector<double> measure; // owned and ghosts
   std::vector<char> is_marked; // per bond, by the last find()
+  std::vector<std::uint32_t> with_marks; // particles, by the last find()
   /** m, or m_bar, of the owned particles into measure. Collective. @return
       false where no bond can fail by it. */
   bool find_measure(const BondList &bonds, const ParticleFields &fields,

@@ -14,11 +14,11 @@ struct SpgParts;
  *
  *   V [ p^2/(2 K) + s : s/(4 G) ]  before less after,
  *
- * p the mean and s the deviator of the stress, V the volume at the last kernel
- * update, is counted as lost [J]. Local to the rank.
+ * p the mean and s the deviator of the stress, V the present volume, is counted
+ * as lost [J]. Local to the rank.
  *
- * Called at the end of a kernel update, when ParticleApproximation::update()
- * has found which directions are gone.
+ * Called at the end of an update of kernels or of cracks, when it is known
+ * which directions are gone.
  *
  * K and G are those at rest. Stress in the present frame, changed in place; the
  * loss is added to BondFailure::loss.

@@ -6,6 +6,7 @@
 #include "sabot/base/types.h"
 #include "sabot/kernels/vec.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -83,6 +84,23 @@ public:
   /** The end of a kernel update: the reference configuration is the present
       one. @p was_lost: which particles had lost a direction before. */
   virtual void end_kernel_update(const SpgParts &, const std::vector<char> &) {}
+
+  /** The same around the removal of bonds from some rows while kernels stay as
+      they are (doc/theory/spg.md, Kernel update): @p some owned particles
+      before, then what is kept per bond by BondList::carry_rows(), then
+      stiffness and residuals of @p rows. Forms that keep nothing per bond have
+      nothing to do. Local. */
+  virtual void begin_crack_update(const SpgParts &,
+                                  const std::vector<std::uint32_t> &)
+  {
+  }
+  virtual void carry_rows(const BondList &, const std::vector<std::uint32_t> &)
+  {
+  }
+  virtual void end_crack_update(const SpgParts &,
+                                const std::vector<std::uint32_t> &)
+  {
+  }
 
   /** Energy that an owned particle's bonds hold and would lose with them
       [J], 0 where the form holds none. For the ledger's failure: what is
