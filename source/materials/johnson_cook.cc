@@ -57,6 +57,29 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     d[n] = eps[k] - old_strain[k];
     n += d[n] > 0.;
   }
+  // Melted points have no von Mises stress; the clamp takes the ratio.
+  const WidePack smallest = splat<WidePack>(1e-12 * shear_modulus());
+  const auto damage_of = [&](WidePack s[6], const double *const increment_at,
+                             const double *const temperature_at)
+  {
+    const WidePack mean = make_deviator(s),
+                   von_mises = pack_sqrt(1.5 * square_of(s)),
+                   increment = load_wide(increment_at);
+    return increment / flow.fracture_strain(
+                           mean / pack_max(von_mises, smallest),
+                           increment / b.dt, load_wide(temperature_at));
+  };
+  WidePack s[6];
+  if (n == b.n)
+  {
+    for (std::size_t k = 0; k < n; k += n_wide)
+    {
+      load_wide(b.stress, k, s);
+      store_wide(&damage[k], load_wide(&damage[k]) +
+                                 damage_of(s, &d[k], &temperature[k]));
+    }
+    return;
+  }
   // Whole packs, filled up with the last point.
   double stress[6][max_batch_points], T[max_batch_points];
   for (std::size_t i = 0; i < (n + n_wide - 1) / n_wide * n_wide; ++i)
@@ -70,19 +93,11 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
       stress[c][i] = b.stress[c][flowing[i]];
     T[i] = temperature[flowing[i]];
   }
-  // Melted points have no von Mises stress; the clamp takes the ratio.
-  const WidePack smallest = splat<WidePack>(1e-12 * shear_modulus());
   for (std::size_t i = 0; i < n; i += n_wide)
   {
-    WidePack s[6];
     for (int c = 0; c < 6; ++c)
       s[c] = load_wide(&stress[c][i]);
-    const WidePack mean = make_deviator(s),
-                   von_mises = pack_sqrt(1.5 * square_of(s)),
-                   increment = load_wide(&d[i]);
-    store_wide(&d[i], increment / flow.fracture_strain(
-                                      mean / pack_max(von_mises, smallest),
-                                      increment / b.dt, load_wide(&T[i])));
+    store_wide(&d[i], damage_of(s, &d[i], &T[i]));
   }
   for (std::size_t i = 0; i < n; ++i)
     damage[flowing[i]] += d[i];

@@ -90,7 +90,7 @@ struct CrumbledBlock
         n.position[i][i % 3] += 1e4 * number(random);
     }
     body->update_ghosts();
-    EXPECT_TRUE(body->update_topology(5, 0.));
+    EXPECT_TRUE(body->update_topology(30, 0.));
   }
 };
 
@@ -214,7 +214,7 @@ TEST(KernelUpdate, metal_that_gapes_bears_nothing_but_viscosity)
     n.position[i] = 1.15 * n.position[i];
   body.update_ghosts();
   body.compute_forces(0., 1e-9);
-  body.update_topology(10, 0.);
+  body.update_topology(60, 0.);
   std::vector<char> gapes(n.n_owned);
   for (std::size_t i = 0; i < n.n_owned; ++i)
     n_gaping += gapes[i] = stiffness_share(rooms, i) < 1.;

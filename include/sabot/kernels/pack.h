@@ -100,25 +100,33 @@ inline HalfPack half_sqrt(const HalfPack a)
  * a^(-1/3) by r <- r (1 + e/3 + 2 e^2/9 + 14 e^3/81 + 35 e^4/243), e = 1 - a
  * r^3, the binomial series of (1 - e)^(-1/3). The first guess divides the
  * exponent of a float by three, to 4 %; two steps of fifth order follow, and
- * no division.
+ * no division. For any width: @p Numbers, as many floats, as many integers.
  */
-inline Pack pack_cbrt(const Pack a)
+template <typename Numbers, typename Floats, typename Bits>
+inline Numbers cube_root_of(const Numbers a)
 {
-  typedef std::int32_t Bits __attribute__((vector_size(16)));
   const Bits third = __builtin_convertvector(
-      (1.f / 3.f) * __builtin_convertvector(reinterpret_cast<Bits>(to_float(a)),
-                                            HalfPack),
+      (1.f / 3.f) *
+          __builtin_convertvector(
+              reinterpret_cast<Bits>(__builtin_convertvector(a, Floats)),
+              Floats),
       Bits);
-  Pack r = to_double(reinterpret_cast<HalfPack>(0x54a2fa8c - third));
+  Numbers r = __builtin_convertvector(
+      reinterpret_cast<Floats>(0x54a2fa8c - third), Numbers);
   for (int i = 0; i < 2; ++i)
   {
-    const Pack e = 1. - a * r * (r * r);
+    const Numbers e = 1. - a * r * (r * r);
     r += r * e *
          ((1. / 3. + 2. / 9. * e) + e * e * (14. / 81. + 35. / 243. * e));
   }
-  const Pack y = a * (r * r);
+  const Numbers y = a * (r * r);
   // r is good to some ulp: one of Newton's steps on y.
   return y - (1. / 3.) * (r * r) * (y * (y * y) - a);
+}
+inline Pack pack_cbrt(const Pack a)
+{
+  typedef std::int32_t Bits __attribute__((vector_size(16)));
+  return cube_root_of<Pack, HalfPack, Bits>(a);
 }
 
 /**

@@ -54,6 +54,10 @@ inline double pack_sqrt(const double a)
 {
   return std::sqrt(a);
 }
+inline double pack_cbrt(const double a)
+{
+  return std::cbrt(a);
+}
 inline double pack_log(const double a)
 {
   return std::log(a);
@@ -84,6 +88,12 @@ inline WidePack pack_min(const WidePack a, const WidePack b)
 inline WidePack pack_sqrt(const WidePack a)
 {
   return _mm512_sqrt_pd(a);
+}
+inline WidePack pack_cbrt(const WidePack a)
+{
+  typedef std::int32_t Bits __attribute__((vector_size(32)));
+  typedef float Floats __attribute__((vector_size(32)));
+  return cube_root_of<WidePack, Floats, Bits>(a);
 }
 #endif
 

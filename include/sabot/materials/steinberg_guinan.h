@@ -83,13 +83,14 @@ struct SteinbergGuinanFlow
   Point<Number> at(const Number temperature, const Number pressure,
                    const Number J) const
   {
-    const Number log_J = pack_log(J);
-    const Number factor =
-        1. + p.pressure_coefficient * pressure * pack_exp((1. / 3.) * log_J) -
-        p.temperature_coefficient * (temperature - p.reference_temperature);
-    return {temperature < melt_temperature(J, log_J)
-                ? pack_max(factor, Number{})
-                : Number{}};
+    const Number factor = pack_max(
+        1. + p.pressure_coefficient * pressure * pack_cbrt(J) -
+            p.temperature_coefficient * (temperature - p.reference_temperature),
+        Number{});
+    // Most metal is too cold to be asked whether it melts.
+    if (!any_of(temperature >= cold_temperature(J)))
+      return {factor};
+    return {temperature < melt_temperature(J, pack_log(J)) ? factor : Number{}};
   }
   /**
    * Y grows with strain from Y_0 (1 + beta eps_i)^n, which is at least Y_0, and
@@ -129,6 +130,16 @@ struct SteinbergGuinanFlow
   }
 
 private:
+  /** A temperature below T_m(J), without logarithm and exponential: exp x >= 1
+      + x, and 1 - 1/J <= ln J <= J - 1. The last factor is for rounding. */
+  template <typename Number>
+  Number cold_temperature(const Number J) const
+  {
+    const double power = 2. * (p.gruneisen - p.melt_correction - 1. / 3.);
+    const Number logarithm = power > 0. ? J - 1. : 1. - 1. / J;
+    return (1. - 1e-9) * p.melt_temperature *
+           (1. + 2. * p.melt_correction * (1. - J) - power * logarithm);
+  }
   template <typename Number>
   Number melt_temperature(const Number J, const Number log_J) const
   {

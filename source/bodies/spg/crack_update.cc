@@ -1,6 +1,8 @@
 // What bonds that fail change while kernels stay as they are.
+#include "sabot/bodies/spg/crack_forces.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/spg_body.h"
+#include "sabot/bodies/spg/stiffness_bound.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,14 +27,14 @@ double largest_stretch_of(const Mat &F)
 
 bool SpgBody::may_update_cracks_alone(const unsigned int step) const
 {
-  return !kernel.is_regular_step(step) && !options.stores_gradients() &&
+  return !kernel.is_regular_step(step) && !kernel.is_half_way(step) && !options.stores_gradients() &&
          options.neighbor_policy == SpgOptions::NeighborPolicy::lagrangian &&
          !(intake && intake->is_waiting());
 }
 
 bool SpgBody::update_cracks(const unsigned int step)
 {
-  const std::vector<std::uint32_t> rows = failure.marked_rows();
+  const std::vector<std::uint32_t> &rows = failure.marked_rows();
   std::vector<ParticleApproximation::CrackedRow> left;
   double change = 1.;
   for (const std::uint32_t i : rows)
@@ -45,33 +47,76 @@ bool SpgBody::update_cracks(const unsigned int step)
   if (kernel.has_changed(change))
     return false;
 
-  const std::vector<std::uint32_t> failed_before = failure.n_failed;
+  CrackedParticles cracked;
+  cracked.changed = open_cracks(left);
+  cracked.beside.resize(nodal_state.size());
+  for (const std::uint32_t i : cracked.changed)
+    cracked.beside[i] = 1;
+  cracked.beside = with_neighbors(parts, std::move(cracked.beside));
+  stable.estimate_beside(cracked.beside, parts, *stabilization);
+  const bool calibrates =
+      n_global > 1 && stable.calibration_is_due(parts, step, communicator);
+  if (calibrates)
+    stable.calibrate(parts, *stabilization, step, !stable.is_calibrated(),
+                     communicator);
+  renew_forces(cracked, calibrates);
+  return true;
+}
+
+std::vector<std::uint32_t> SpgBody::open_cracks(
+    const std::vector<ParticleApproximation::CrackedRow> &left)
+{
+  const std::vector<std::uint32_t> rows = failure.marked_rows(),
+                                   n_failed_before = failure.n_failed;
   const std::vector<char> failed_already = failure.is_failed;
   failure.count(nodal_state, bonds, node_exchange);
-  std::vector<std::uint32_t> changed; // the rows among them
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    if (failure.n_failed[i] != failed_before[i])
-      changed.push_back(i);
-  stabilization->begin_crack_update(parts, changed);
-  for (const std::uint32_t i : changed)
+  stabilization->begin_crack_update(parts, rows);
+  for (const std::uint32_t i : rows)
     failure.loss[i] += stabilization->held_energy(parts, i);
   if (failure.remove_from_rows(bonds))
     stabilization->carry_rows(bonds, rows);
   bonds.settle();
   take_functions(rows, left);
   stabilization->end_crack_update(parts, rows);
-  failure.judge(approximation.lost_direction, *residual_strength);
-  for (const std::uint32_t i : changed)
-  {
-    if (failure.is_failed[i] && !failed_already[i])
-      release_stress(parts, i);
+  for (const std::uint32_t i : rows)
     failure.loss[i] -= stabilization->held_energy(parts, i);
+  failure.judge(approximation.lost_direction, *residual_strength);
+  std::vector<std::uint32_t> changed;
+  auto row = rows.begin();
+  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  {
+    const bool loses_bonds = row != rows.end() && *row == i,
+               fails = failure.is_failed[i] && !failed_already[i],
+               cracks = n_failed_before[i] == 0 && failure.n_failed[i] > 0;
+    row += loses_bonds;
+    if (fails)
+      release_stress(parts, i);
+    if (loses_bonds || fails || cracks)
+      changed.push_back(i);
   }
-  stable.estimate_beside(changed, parts, *stabilization);
-  if (n_global > 1 && stable.calibration_is_due(parts, step, communicator))
-    stable.calibrate(parts, *stabilization, step, !stable.is_calibrated(),
-                     communicator);
-  return true;
+  return changed;
+}
+
+void SpgBody::renew_forces(const CrackedParticles &cracked, const bool of_all)
+{
+  const std::size_t n = nodal_state.n_owned;
+  // What couplings have added stays, as at a kernel update.
+  AlignedVector<Vec> added(n);
+  for (std::size_t i = 0; i < n; ++i)
+    added[i] = nodal_state.force[i] - fields.own_force[i];
+  if (of_all || !stabilization->renew_forces(parts, cracked))
+  {
+    evaluate_forces(no_step);
+    for (std::size_t i = 0; i < n; ++i)
+      nodal_state.force[i] += added[i];
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (cracked.beside[i])
+    {
+      fields.own_force[i] = nodal_state.force[i];
+      nodal_state.force[i] += added[i];
+    }
 }
 
 void SpgBody::take_functions(

@@ -289,14 +289,15 @@ bool SpgBody::update_topology(const unsigned int step, const double time)
 void SpgBody::update_kernel_and_forces(const unsigned int step,
                                        const bool only_cracks)
 {
+  if (only_cracks && may_update_cracks_alone(step) && update_cracks(step))
+    return;
   // The next step begins with half a kick by these forces, and the ledger will
   // count the work that the new bonds and functions do along it.
   const std::size_t n = nodal_state.n_owned;
   AlignedVector<Vec> added(n);
   for (std::size_t i = 0; i < n; ++i)
     added[i] = nodal_state.force[i] - fields.own_force[i];
-  if (!only_cracks || !may_update_cracks_alone(step) || !update_cracks(step))
-    update_kernel(step, only_cracks);
+  update_kernel(step, only_cracks);
   evaluate_forces(no_step); // no problem where nothing is deformed yet
   for (std::size_t i = 0; i < n; ++i)
     nodal_state.force[i] += added[i];

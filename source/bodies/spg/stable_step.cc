@@ -39,23 +39,20 @@ std::vector<double> moving_masses(const NodalState &nodes)
 
 void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form)
 {
-  estimate(body, form, std::vector<char>(body.nodes.size(), 1));
+  estimate(body, form, std::vector<char>(body.nodes.size(), 1), true);
 }
 
 void SpgStableStep::estimate_beside_cracks(const SpgParts &body,
                                            const Stabilization &form)
 {
-  estimate(body, form, beside_cracks(body));
+  estimate(body, form, beside_cracks(body), true);
 }
 
-void SpgStableStep::estimate_beside(const std::vector<std::uint32_t> &some,
+void SpgStableStep::estimate_beside(const std::vector<char> &beside,
                                     const SpgParts &body,
                                     const Stabilization &form)
 {
-  std::vector<char> marked(body.nodes.size());
-  for (const std::uint32_t i : some)
-    marked[i] = 1;
-  estimate(body, form, with_neighbors(body, std::move(marked)));
+  estimate(body, form, beside, false);
 }
 
 void SpgStableStep::carry(const ParticleFields &fields)
@@ -71,12 +68,14 @@ void SpgStableStep::carry(const ParticleFields &fields)
 }
 
 void SpgStableStep::estimate(const SpgParts &body, const Stabilization &form,
-                             const std::vector<char> &wanted)
+                             const std::vector<char> &wanted,
+                             const bool spends_stress)
 {
   const NodalState &nodes = body.nodes;
   const Material &law = body.points.law();
   const double c = law.sound_speed();
-  const std::vector<double> rows = elastic_row_bounds(body, wanted);
+  const std::vector<double> rows =
+      elastic_row_bounds(body, wanted, spends_stress);
   // Rows are those of whole particles.
   std::vector<double> mass = moving_masses(nodes);
   body.exchange.make_whole(mass.data());

@@ -72,6 +72,9 @@ public:
   {
     for (std::size_t i = 0; i < entry[0].size(); i += n_lanes)
     {
+      const double *const trace = &entry[0][i];
+      if (!(trace[0] > 0. || trace[1] > 0. || trace[2] > 0. || trace[3] > 0.))
+        continue; // nothing was asked of these
       Pack s[6];
       for (int c = 0; c < 6; ++c)
         s[c] = load_pack(&entry[c][i]);
@@ -123,6 +126,7 @@ struct GradientSums
 struct Elements
 {
   const Mat *inverse_moment = nullptr; // with ghosts; least squares only
+  AlignedVector<Mat> with_ghosts;      // where they are if nowhere else
   std::vector<double> bulk, shear;     // V lambda s, 2 V mu l, with ghosts
   AlignedVector<Vec> own;              // g of the particle itself, owned
 };
@@ -172,19 +176,33 @@ void gradients_there(const SpgParts &body, const Elements &elements,
   }
 }
 
-/** Whether a mark stands at owned particle @p i or one of its neighbors. */
-bool is_near(const BondList &bonds, const std::vector<char> &marked,
-             const std::size_t i)
+/** [n_local] Owned particles at which a mark stands or at one of their
+    neighbors. @p marked [n_local]. */
+std::vector<char> owned_near(const SpgParts &body,
+                             const std::vector<char> &marked)
 {
-  bool any = marked[i];
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i) && !any; ++b)
-    any = marked[bonds.neighbor[b]];
-  return any;
+  const BondList &bonds = body.bonds;
+  const std::size_t n = body.nodes.n_owned, n_local = body.nodes.size();
+  // Most often few are marked, which tell their neighbors.
+  std::vector<char> near(marked);
+  for (std::size_t i = 0; i < n; ++i)
+    if (marked[i])
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+        near[bonds.neighbor[b]] = 1;
+  // Ghosts cannot.
+  const bool any_ghost = std::find(marked.begin() + n, marked.end(), 1) !=
+                         marked.end();
+  for (std::size_t i = 0; i < n && any_ghost; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i) && !near[i]; ++b)
+      near[i] = bonds.neighbor[b] >= n && marked[bonds.neighbor[b]];
+  std::fill(near.begin() + n, near.begin() + n_local, 0);
+  return near;
 }
 
 /** The first half: s and l of every particle that the rows of the wanted ones
     ask for. Collective. */
-Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
+Elements find_elements(const SpgParts &body, const std::vector<char> &wanted,
+                       const bool spends_stress)
 {
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
@@ -196,9 +214,10 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
   elements.bulk.resize(body.nodes.size());
   elements.shear.resize(body.nodes.size());
   Matrices G(n);
+  const std::vector<char> near = owned_near(body, wanted);
   for (std::size_t i = 0; i < n; ++i)
   {
-    if (!is_near(bonds, wanted, i))
+    if (!near[i])
       continue;
     GradientSums sums;
     for (std::uint32_t b = bonds.begin(i); b < bonds.packed_end(i);
@@ -236,8 +255,10 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
     elements.inverse_moment = owned.data();
     if (!body.exchange.is_trivial())
     {
-      // In the place of the step's stress, which is found anew.
-      AlignedVector<Mat> &place = body.fields.generalized_stress;
+      AlignedVector<Mat> &place = spends_stress
+                                      ? body.fields.generalized_stress
+                                      : elements.with_ghosts;
+      place.resize(body.nodes.size());
       std::copy(owned.begin(), owned.end(), place.begin());
       body.exchange.update(place.data());
       elements.inverse_moment = place.data();
@@ -249,10 +270,8 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted)
 
 std::vector<char> with_neighbors(const SpgParts &body, std::vector<char> marked)
 {
-  std::vector<char> beside(body.nodes.size());
   body.exchange.update(marked.data());
-  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
-    beside[i] = is_near(body.bonds, marked, i);
+  std::vector<char> beside = owned_near(body, marked);
   body.exchange.update(beside.data());
   return beside;
 }
@@ -266,11 +285,12 @@ std::vector<char> beside_cracks(const SpgParts &body)
 }
 
 std::vector<double> elastic_row_bounds(const SpgParts &body,
-                                       const std::vector<char> &wanted)
+                                       const std::vector<char> &wanted,
+                                       const bool spends_stress)
 {
   const std::size_t n = body.nodes.n_owned;
   const BondList &bonds = body.bonds;
-  const Elements elements = find_elements(body, wanted);
+  const Elements elements = find_elements(body, wanted, spends_stress);
   std::vector<double> rows(n);
   Matrices R(n);
   for (std::size_t i = 0; i < n; ++i)

@@ -116,11 +116,12 @@ inline void weigh_bonds(const ForceViews &in, const Vec Xi, const std::size_t b,
  * forces is zero to round-off. A bond is computed twice, once from each end,
  * which needs no locks and no exchange of forces. Adds to force [n_owned] in N,
  * fourth lanes 0. Numbers of a bond go through memory, from where they are
- * spread over a register for nothing. Local.
+ * spread over a register for nothing. Local. Of the particles that @p wanted
+ * says.
  */
-template <bool stored_gradients, typename Form>
+template <bool stored_gradients, typename Form, typename Wanted>
 inline void gather_forces(const ForceViews &in, const Form &form,
-                          Vec *const force)
+                          Vec *const force, const Wanted &wanted)
 {
   const std::uint32_t *const neighbor = in.bonds.neighbor.data();
   const std::uint32_t *const reverse = in.bonds.reverse.data();
@@ -128,6 +129,8 @@ inline void gather_forces(const ForceViews &in, const Form &form,
   const auto bond_force = form.bond_forces(in.bonds);
   for (std::size_t i = 0; i < in.n_owned; ++i)
   {
+    if (!wanted(i))
+      continue;
     const Vec Xi = in.kernel_position[i];
     Vec f[3] = {force[i], Vec{}, Vec{}};
     const std::size_t last = in.bonds.packed_end(i);
@@ -173,6 +176,8 @@ inline void gather_forces(const ForceViews &in, const Form &form,
  *                                    // what neighbors get to know
  *   void exchange(body);             // what belongs to ghosts' bonds
  *   Vec own_bond_forces(i, k);       // on its own particle, after add_stress
+ *   Vec bond_forces_as_they_are(bonds, i, stiffness); // the same of particles
+ *                                    // of which nothing changes
  *   auto bond_forces(bonds);         // functor of what the neighbor's end of a
  *                                    // bond takes off the force
  *   void add_forces(body);           // what is not a sum over one ring, on
@@ -219,7 +224,7 @@ void spg_step(SpgParts &body, Form &form, const double dt)
       ForceViews{body.bonds, body.fields.kernel_reference_position.data(),
                  body.fields.generalized_stress.data(),
                  body.approximation.shape_gradient.data(), n},
-      form, body.nodes.force.data());
+      form, body.nodes.force.data(), [](std::size_t) { return true; });
   body.exchange.take_shares(body.nodes.force.data());
   form.add_forces(body);
 }

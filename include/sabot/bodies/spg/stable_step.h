@@ -54,10 +54,10 @@ public:
   /** The same of the particles beside cracks only, whose bonds may be others
       than at the last update; all others keep their steps. Collective. */
   void estimate_beside_cracks(const SpgParts &body, const Stabilization &form);
-  /** The same of @p some owned particles, which have lost bonds since the last
-      update, and their neighbors. Collective. */
-  void estimate_beside(const std::vector<std::uint32_t> &some,
-                       const SpgParts &body, const Stabilization &form);
+  /** The same of particles @p beside some that have lost bonds since the last
+      update [n_local]; the generalized stress stays. Collective. */
+  void estimate_beside(const std::vector<char> &beside, const SpgParts &body,
+                       const Stabilization &form);
   /** Before a kernel update: what has shortened steps since the last one stays
       in those that are not estimated anew, dt/sqrt(max(1, |F^-1|^2 - 2)) as
       within a step (step_as_stiff_as_now()). Local. */
@@ -103,7 +103,7 @@ private:
   };
   Bounds least_bounds(const SpgParts &body, MPI_Comm communicator) const;
   void estimate(const SpgParts &body, const Stabilization &form,
-                const std::vector<char> &wanted);
+                const std::vector<char> &wanted, const bool spends_stress);
 
   std::vector<double> step; // [s]
   double factor = 1.;       // proven part by which the bound is too short

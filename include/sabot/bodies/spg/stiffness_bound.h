@@ -45,9 +45,12 @@ double stiffness_share(const SpgParts &body, const std::size_t i);
  * V_N times stiffness_share(). Owned particles; collective: inverse moments of
  * ghosts are exchanged. Equal bits on every number of ranks.
  * @param wanted  [n_local] whose rows are asked for; zero for all others
+ * @param spends_stress  the generalized stress is found anew afterwards, and
+ * moments of ghosts may stand in its place
  */
 std::vector<double> elastic_row_bounds(const SpgParts &body,
-                                       const std::vector<char> &wanted);
+                                       const std::vector<char> &wanted,
+                                       const bool spends_stress = true);
 
 /** Of owned particles and ghosts, those that are marked and those that share a
     bond with one. @p marked [n_local], of owned particles. Collective. */

@@ -129,7 +129,13 @@ void BondFailure::count(const NodalState &nodes, const BondList &bonds,
     crumbled[i] |= crumbles[i];
   if (joins_crumbled)
     exchange.update(crumbled.data());
+  auto row = with_marks.begin();
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
+  {
+    const bool has_marks = row != with_marks.end() && *row == i;
+    row += has_marks;
+    if (!has_marks && !crumbled[i])
+      continue;
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
@@ -138,6 +144,7 @@ void BondFailure::count(const NodalState &nodes, const BondList &bonds,
       if (is_marked[b] && remembers_pairs)
         failed_pairs[i].push_back(nodes.global_id[j]);
     }
+  }
   crumbles.clear();
 }
 

@@ -2,6 +2,7 @@
 // what a bond's vector differs from F X, as a spring that yields with the
 // metal.
 #include "sabot/base/registry.h"
+#include "sabot/bodies/spg/crack_forces.h"
 #include "sabot/bodies/spg/linearized_body.h"
 #include "sabot/bodies/spg/spg_step.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
@@ -97,6 +98,7 @@ public:
       take_linear_part(body, i);
     }
   }
+  bool renew_forces(SpgParts &body, const CrackedParticles &cracked) override;
   double held_energy(const SpgParts &body, const std::size_t i) const override;
   void add_row_sums(const SpgParts &body,
                     std::vector<double> &sums) const override;
@@ -125,6 +127,8 @@ public:
   {
     return factor[i] * stiffness[i] * batch.residual_sum[k];
   }
+  Vec bond_forces_as_they_are(const BondList &bonds, const std::size_t i,
+                              const double theta_k) const;
   struct BondForce
   {
     const float *weight;     // w [1/m^2]
@@ -261,6 +265,23 @@ inline double BondResidual::add_stress(const std::size_t i, const std::size_t k,
                     theta * batch.trial_square[k]);
   factor[i] = theta;
   return theta_k;
+}
+
+inline Vec BondResidual::bond_forces_as_they_are(const BondList &bonds,
+                                                 const std::size_t i,
+                                                 const double theta_k) const
+{
+  Pack sum[3] = {};
+  for (std::size_t b = bonds.begin(i); b < bonds.packed_end(i); b += n_lanes)
+  {
+    Pack e[3];
+    load_bonds(&residual[b], e);
+    const Pack w = load_floats(&bonds.scaled_weight[b]);
+    for (int d = 0; d < 3; ++d)
+      sum[d] += w * e[d];
+  }
+  const Pack zero = {};
+  return theta_k * sum_lanes(sum[0], sum[1], sum[2], zero);
 }
 
 void BondResidual::exchange(const SpgParts &body)
@@ -419,6 +440,12 @@ void BondResidual::visit_state(StateVisitor &visitor, const StateItems &items)
 void BondResidual::compute_forces(SpgParts &body, const double dt)
 {
   run_spg_step(body, *this, dt);
+}
+
+bool BondResidual::renew_forces(SpgParts &body, const CrackedParticles &cracked)
+{
+  renew_crack_forces(body, *this, cracked);
+  return true;
 }
 
 void BondResidual::apply_linearized(const SpgParts &body,

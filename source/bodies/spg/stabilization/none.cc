@@ -1,5 +1,6 @@
 // No stabilization: direct nodal integration as it is, for comparison.
 #include "sabot/base/registry.h"
+#include "sabot/bodies/spg/crack_forces.h"
 #include "sabot/bodies/spg/linearized_body.h"
 #include "sabot/bodies/spg/spg_step.h"
 #include "sabot/bodies/spg/stabilization/unstabilized.h"
@@ -9,6 +10,12 @@ namespace sabot
 void Unstabilized::compute_forces(SpgParts &body, const double dt)
 {
   run_spg_step(body, *this, dt);
+}
+
+bool Unstabilized::renew_forces(SpgParts &body, const CrackedParticles &cracked)
+{
+  renew_crack_forces(body, *this, cracked);
+  return true;
 }
 
 void Unstabilized::apply_linearized(const SpgParts &body,

@@ -6,6 +6,7 @@
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/geometry/particle_cloud.h"
 
+#include <algorithm>
 #include <array>
 
 namespace sabot
@@ -49,6 +50,12 @@ public:
   bool is_regular_step(const unsigned int step) const
   {
     return step % interval == 0;
+  }
+  /** Between two regular updates: where cracks call for an update, kernels
+      follow as well, so that crumbled metal has its neighbors found anew. */
+  bool is_half_way(const unsigned int step) const
+  {
+    return step % std::max(1u, interval / 2) == 0;
   }
   /** Whether any owned particle's Green strain since the last update reaches
       the limit; rotation needs no update. On this rank; the caller asks the

@@ -16,6 +16,7 @@ namespace sabot
 {
 class BondList;
 class Parameters;
+struct CrackedParticles;
 struct SpgParts;
 
 /**
@@ -100,6 +101,15 @@ public:
   virtual void end_crack_update(const SpgParts &,
                                 const std::vector<std::uint32_t> &)
   {
+  }
+
+  /** Forces where cracks have changed something, in place of
+      compute_forces(body, no_step) for all; own forces of the particles beside
+      them are overwritten. Collective. @return false, and nothing is done,
+      where the form evaluates all or nothing. */
+  virtual bool renew_forces(SpgParts &, const CrackedParticles &)
+  {
+    return false;
   }
 
   /** Energy that an owned particle's bonds hold and would lose with them

@@ -17,6 +17,8 @@ class Unstabilized : public Stabilization
 public:
   /** The SPG step with hooks that do nothing. Collective. */
   void compute_forces(SpgParts &body, const double dt) override;
+  /** The same beside cracks. Collective. */
+  bool renew_forces(SpgParts &body, const CrackedParticles &cracked) override;
   /** The linearized body with hooks that do nothing. Collective. */
   void apply_linearized(const SpgParts &body, const AlignedVector<Vec> &motion,
                         AlignedVector<Vec> &force) override;
