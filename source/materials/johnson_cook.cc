@@ -65,9 +65,9 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     const WidePack mean = make_deviator(s),
                    von_mises = pack_sqrt(1.5 * square_of(s)),
                    increment = load_wide(increment_at);
-    return increment / flow.fracture_strain(
-                           mean / pack_max(von_mises, smallest),
-                           increment / b.dt, load_wide(temperature_at));
+    return increment /
+           flow.fracture_strain(mean / pack_max(von_mises, smallest),
+                                increment / b.dt, load_wide(temperature_at));
   };
   WidePack s[6];
   if (n == b.n)
@@ -75,8 +75,8 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     for (std::size_t k = 0; k < n; k += n_wide)
     {
       load_wide(b.stress, k, s);
-      store_wide(&damage[k], load_wide(&damage[k]) +
-                                 damage_of(s, &d[k], &temperature[k]));
+      store_wide(&damage[k],
+                 load_wide(&damage[k]) + damage_of(s, &d[k], &temperature[k]));
     }
     return;
   }

@@ -19,8 +19,8 @@ struct CrackingBlock
 {
   World world;
   SpgBody *body;
-  const Mat A = {{vec(1.04, 0.015, 0.), vec(-0.01, 1.03, 0.02),
-                  vec(0.01, 0., 1.01)}};
+  const Mat A = {
+      {vec(1.04, 0.015, 0.), vec(-0.01, 1.03, 0.02), vec(0.01, 0., 1.01)}};
 
   CrackingBlock(const double noise, const char *const rule = "friction",
                 const char *const form = "bond residual")
@@ -141,8 +141,8 @@ TEST(CrackUpdate, functions_stay_exact_for_linear_fields)
   const SpgParts &rooms = block.rooms();
   NodalState &n = block.body->nodes();
   ASSERT_TRUE(block.body->update_topology(5, 0.));
-  const Mat B = {{vec(1.05, 0.02, 0.), vec(-0.01, 1.06, 0.02),
-                  vec(0.01, 0.01, 1.02)}};
+  const Mat B = {
+      {vec(1.05, 0.02, 0.), vec(-0.01, 1.06, 0.02), vec(0.01, 0.01, 1.02)}};
   for (std::size_t i = 0; i < n.n_owned; ++i)
     n.position[i] = B * n.reference_position[i];
   block.body->update_ghosts();

@@ -88,6 +88,13 @@ TEST(PackMath, cube_root)
                   4. * 2.3e-16 * std::cbrt(a[lane]));
     EXPECT_EQ(root[2], 1.);
     EXPECT_EQ(root[3], 0.);
+    // The same bits in a wide pack.
+    WidePack wide = {};
+    for (std::size_t lane = 0; lane < n_wide; ++lane)
+      wide[lane] = a[lane % n_lanes];
+    const WidePack wide_root = pack_cbrt(wide);
+    for (std::size_t lane = 0; lane < n_wide; ++lane)
+      EXPECT_EQ(wide_root[lane], root[lane % n_lanes]);
   }
 }
 

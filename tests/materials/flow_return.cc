@@ -102,6 +102,31 @@ SteinbergGuinanParameters steinberg()
   return p;
 }
 
+TEST(FlowReturn, metal_melts_where_the_law_says)
+{
+  // Near its melting curve, by both signs of the power of J: nothing is left
+  // from it on, and what is left below is that of the formula.
+  for (const double gruneisen : {1., 2., 3.})
+  {
+    SteinbergGuinanParameters p = steinberg();
+    p.gruneisen = gruneisen;
+    p.temperature_coefficient = 1e-4;
+    const SteinbergGuinanFlow flow{p};
+    for (double J = 0.5; J < 1.6; J += 0.01)
+      for (const double part : {0.1, 0.5, 0.9, 0.999999, 1.000001, 1.1, 2.})
+      {
+        const double T = part * flow.melt_temperature(J), pressure = 1e9;
+        const auto at = flow.at(splat<WidePack>(T), splat<WidePack>(pressure),
+                                splat<WidePack>(J));
+        const double left =
+            1. + 6.5e-11 * pressure * std::cbrt(J) - 1e-4 * (T - 300.);
+        const double expected = part < 1. ? std::max(0., left) : 0.;
+        ASSERT_NEAR(at.factor[0], expected, 1e-12) << J << " " << part;
+        ASSERT_EQ(at.factor[0] == 0., expected == 0.) << J << " " << part;
+      }
+  }
+}
+
 /** Where a point yielded: q - 3 G d = sigma_y(eps + d, d/dt), with what holds
     at the start of the step. */
 template <typename Flow>

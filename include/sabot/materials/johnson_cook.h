@@ -164,8 +164,8 @@ struct JohnsonCookFlow
                  clamped = pack_min(pack_max(triaxiality, splat<Number>(-10.)),
                                     splat<Number>(1.5));
     // Many sets have no effect of the rate.
-    const Number of_rate = p.D[3] != 0. ? 1. + p.D[3] * pack_log(relative)
-                                        : splat<Number>(1.);
+    const Number of_rate =
+        p.D[3] != 0. ? 1. + p.D[3] * pack_log(relative) : splat<Number>(1.);
     return pack_max((p.D[0] + p.D[1] * pack_exp(p.D[2] * clamped)) * of_rate *
                         (1. + p.D[4] * homologous(temperature)),
                     splat<Number>(p.smallest_fracture_strain));

@@ -27,7 +27,8 @@ double largest_stretch_of(const Mat &F)
 
 bool SpgBody::may_update_cracks_alone(const unsigned int step) const
 {
-  return !kernel.is_regular_step(step) && !kernel.is_half_way(step) && !options.stores_gradients() &&
+  return !kernel.is_regular_step(step) && !kernel.is_half_way(step) &&
+         !options.stores_gradients() &&
          options.neighbor_policy == SpgOptions::NeighborPolicy::lagrangian &&
          !(intake && intake->is_waiting());
 }
@@ -63,8 +64,8 @@ bool SpgBody::update_cracks(const unsigned int step)
   return true;
 }
 
-std::vector<std::uint32_t> SpgBody::open_cracks(
-    const std::vector<ParticleApproximation::CrackedRow> &left)
+std::vector<std::uint32_t>
+SpgBody::open_cracks(const std::vector<ParticleApproximation::CrackedRow> &left)
 {
   const std::vector<std::uint32_t> rows = failure.marked_rows(),
                                    n_failed_before = failure.n_failed;

@@ -190,8 +190,8 @@ std::vector<char> owned_near(const SpgParts &body,
       for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
         near[bonds.neighbor[b]] = 1;
   // Ghosts cannot.
-  const bool any_ghost = std::find(marked.begin() + n, marked.end(), 1) !=
-                         marked.end();
+  const bool any_ghost =
+      std::find(marked.begin() + n, marked.end(), 1) != marked.end();
   for (std::size_t i = 0; i < n && any_ghost; ++i)
     for (std::size_t b = bonds.begin(i); b < bonds.end(i) && !near[i]; ++b)
       near[i] = bonds.neighbor[b] >= n && marked[bonds.neighbor[b]];
@@ -255,9 +255,8 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted,
     elements.inverse_moment = owned.data();
     if (!body.exchange.is_trivial())
     {
-      AlignedVector<Mat> &place = spends_stress
-                                      ? body.fields.generalized_stress
-                                      : elements.with_ghosts;
+      AlignedVector<Mat> &place =
+          spends_stress ? body.fields.generalized_stress : elements.with_ghosts;
       place.resize(body.nodes.size());
       std::copy(owned.begin(), owned.end(), place.begin());
       body.exchange.update(place.data());

@@ -62,8 +62,7 @@ void renew_crack_forces(SpgParts &body, Form &form,
   for (const std::uint32_t i : cracked.changed)
     others[i] = 0;
   for_each_range(
-      n,
-      [&](const std::size_t i) { return cracked.beside[i] && !others[i]; },
+      n, [&](const std::size_t i) { return cracked.beside[i] && !others[i]; },
       [&](const ParticleRange &range)
       {
         follow(range);
@@ -81,8 +80,8 @@ void renew_crack_forces(SpgParts &body, Form &form,
         {
           const Mat &Q = body.fields.generalized_stress[i];
           Vec &f = body.nodes.force[i];
-          f = multiply_columns(
-              Q, work.bond_sums[i - range.begin].function_sum());
+          f = multiply_columns(Q,
+                               work.bond_sums[i - range.begin].function_sum());
           if constexpr (Form::has_bond_forces)
             f += form.bond_forces_as_they_are(body.bonds, i, Q.row[0][3]);
         }

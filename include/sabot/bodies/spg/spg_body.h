@@ -205,15 +205,16 @@ private:
   /** The part of update_cracks() before steps and forces. @p left: what is
       left of the functions of failure.marked_rows(). @return the owned
       particles of which the update has changed something. Collective. */
-  std::vector<std::uint32_t> open_cracks(
-      const std::vector<ParticleApproximation::CrackedRow> &left);
+  std::vector<std::uint32_t>
+  open_cracks(const std::vector<ParticleApproximation::CrackedRow> &left);
   /** Forces beside cracks, or of all particles after a calibration, which
       spends their stress. Collective. */
   void renew_forces(const CrackedParticles &cracked, const bool of_all);
   /** The functions of @p rows go over to @p left at the total F and volume of
       before. */
-  void take_functions(const std::vector<std::uint32_t> &rows,
-      const std::vector<ParticleApproximation::CrackedRow> &left);
+  void
+  take_functions(const std::vector<std::uint32_t> &rows,
+                 const std::vector<ParticleApproximation::CrackedRow> &left);
   /** Forces of now, material advanced by @p dt; the body's part is kept.
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */

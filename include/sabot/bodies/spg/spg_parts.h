@@ -86,7 +86,7 @@ struct StepWatch
   double largest_change =
       1.;                    // largest stretch of F_inc or its inverse, squared
   std::string problem;       // the first; empty: none
-  std::size_t n_updates = 0; // of the kernel so far
+  std::size_t n_updates = 0; // of all kernels so far
 
   /** Before a step; the stable step and who limits it stay. */
   void restart()

@@ -6,6 +6,7 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/mirror_planes.h"
+#include "sabot/kernels/pack_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,11 +146,16 @@ public:
       order[k] = {cube, static_cast<std::uint32_t>(k)};
     }
     std::sort(order.begin(), order.end());
+    // Behind the last one stands what is far from all.
     for (int d = 0; d < 3; ++d)
-      x[d].resize(order.size());
+      x[d].resize(order.size() + n_wide, 1e150);
+    number.resize(order.size() + n_wide);
     for (std::size_t place = 0; place < order.size(); ++place)
+    {
+      number[place] = order[place].second;
       for (int d = 0; d < 3; ++d)
-        x[d][place] = crumbs[order[place].second].x[d];
+        x[d][place] = crumbs[number[place]].x[d];
+    }
   }
 
   /** Call @p visit(k, near, n) for every crumb k with the n crumbs closer to it
@@ -174,7 +180,7 @@ public:
         advance(last[side], middle + 2);
         n_candidates += last[side] - first[side];
       }
-      near.resize(n_candidates);
+      near.resize(n_candidates + n_wide);
       for (std::size_t place = begin; place < end; ++place)
       {
         std::size_t n = 0;
@@ -198,24 +204,36 @@ private:
     while (place < order.size() && order[place].first < cube)
       ++place;
   }
-  /** Append those of [first, last) that are near to @p near, which has n. */
+  /** Append those of [first, last) that are near to @p near, which has n, and
+      room for a pack more. */
   std::size_t collect(const std::size_t place, const std::size_t first,
                       const std::size_t last, std::uint32_t *const near,
                       std::size_t n) const
   {
     const double x0 = x[0][place], y0 = x[1][place], z0 = x[2][place];
-    for (std::size_t k = first; k < last; ++k)
+    for (std::size_t k = first; k < last; k += n_wide)
     {
-      const double dx = x[0][k] - x0, dy = x[1][k] - y0, dz = x[2][k] - z0;
-      near[n] = order[k].second;
-      n += dx * dx + dy * dy + dz * dz < reach * reach;
+      const WidePack dx = load_wide(&x[0][k]) - x0,
+                     dy = load_wide(&x[1][k]) - y0,
+                     dz = load_wide(&x[2][k]) - z0;
+      const WideMask is_near = dx * dx + dy * dy + dz * dz < reach * reach;
+      if (!any_of(is_near))
+        continue;
+      const std::size_t n_lanes = std::min(n_wide, last - k);
+      for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      {
+        near[n] = number[k + lane];
+        n -= is_near[lane];
+      }
     }
     return n;
   }
 
   const double reach;
   std::vector<std::pair<std::int64_t, std::uint32_t>> order; // cube, number
-  std::vector<double> x[3];                                  // in this order
+  // In this order
+  std::vector<double> x[3];
+  std::vector<std::uint32_t> number;
 };
 
 /** Pairs of crumbs that are near each other, of this rank's ones. Row by row of

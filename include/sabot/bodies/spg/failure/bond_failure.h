@@ -167,8 +167,8 @@ private:
   const double critical_stretch;
   const unsigned int interval; // steps between looks
   const bool remembers_pairs;
-  std::vector<double> measure; // owned and ghosts
-  std::vector<char> is_marked; // per bond, by the last find()
+  std::vector<double> measure;           // owned and ghosts
+  std::vector<char> is_marked;           // per bond, by the last find()
   std::vector<std::uint32_t> with_marks; // particles, by the last find()
   /** m, or m_bar, of the owned particles into measure. Collective. @return
       false where no bond can fail by it. */
