@@ -41,6 +41,25 @@ void JohnsonCook::update_deviator(const MaterialBatch &b,
   RateDependentPlasticity::update_deviator(b, old_strain);
 }
 
+namespace
+{
+/** d_eps/eps_f of the points of a pack at stress @p s, which becomes its
+    deviator. Melted points have no von Mises stress: it counts as @p smallest
+    at least [Pa], and the clamp takes the ratio. */
+inline WidePack damage_increment(const JohnsonCookFlow &flow, WidePack s[6],
+                                 const WidePack increment, const double dt,
+                                 const WidePack temperature,
+                                 const double smallest)
+{
+  const WidePack mean = make_deviator(s),
+                 von_mises = pack_sqrt(1.5 * square_of(s)),
+                 triaxiality =
+                     mean / pack_max(von_mises, splat<WidePack>(smallest));
+  return increment /
+         flow.fracture_strain(triaxiality, increment / dt, temperature);
+}
+} // namespace
+
 void JohnsonCook::after_pressure(const MaterialBatch &b,
                                  const Scratch &old_strain) const
 {
@@ -57,17 +76,12 @@ void JohnsonCook::after_pressure(const MaterialBatch &b,
     d[n] = eps[k] - old_strain[k];
     n += d[n] > 0.;
   }
-  // Melted points have no von Mises stress; the clamp takes the ratio.
-  const WidePack smallest = splat<WidePack>(1e-12 * shear_modulus());
-  const auto damage_of = [&](WidePack s[6], const double *const increment_at,
-                             const double *const temperature_at)
+  const double smallest = 1e-12 * shear_modulus();
+  const auto damage_of =
+      [&](WidePack s[6], const double *const increment, const double *const T)
   {
-    const WidePack mean = make_deviator(s),
-                   von_mises = pack_sqrt(1.5 * square_of(s)),
-                   increment = load_wide(increment_at);
-    return increment /
-           flow.fracture_strain(mean / pack_max(von_mises, smallest),
-                                increment / b.dt, load_wide(temperature_at));
+    return damage_increment(flow, s, load_wide(increment), b.dt, load_wide(T),
+                            smallest);
   };
   WidePack s[6];
   if (n == b.n)

@@ -1,7 +1,12 @@
 // What bonds that fail change while kernels stay as they are.
+#include "sabot/bodies/spg/crack_update.h"
+
+#include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/crack_forces.h"
+#include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
-#include "sabot/bodies/spg/spg_body.h"
+#include "sabot/bodies/spg/stabilization/stabilization.h"
+#include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/spg/stiffness_bound.h"
 
 #include <algorithm>
@@ -25,107 +30,83 @@ double largest_stretch_of(const Mat &F)
 }
 } // namespace
 
-bool SpgBody::may_update_cracks_alone(const unsigned int step) const
+bool CrackUpdate::may_leave_kernels(const unsigned int step) const
 {
-  return !kernel.is_regular_step(step) && !kernel.is_half_way(step) &&
-         !options.stores_gradients() &&
-         options.neighbor_policy == SpgOptions::NeighborPolicy::lagrangian &&
-         !(intake && intake->is_waiting());
+  return !body.kernel.is_regular_step(step) && !body.kernel.is_half_way(step) &&
+         !approximation.stores_gradients() &&
+         body.options.neighbor_policy == SpgOptions::NeighborPolicy::lagrangian;
 }
 
-bool SpgBody::update_cracks(const unsigned int step)
+CrackUpdate::Rest CrackUpdate::update(const unsigned int step)
 {
-  const std::vector<std::uint32_t> &rows = failure.marked_rows();
-  std::vector<ParticleApproximation::CrackedRow> left;
+  std::vector<Row> left;
   double change = 1.;
-  for (const std::uint32_t i : rows)
+  for (const std::uint32_t i : body.failure.marked_rows())
   {
-    left.push_back(approximation.without_bonds(
-        bonds, fields, nodal_state.position.data(), i, failure.marks()));
+    left.push_back(approximation.without_bonds(body.bonds, body.fields,
+                                               body.nodes.position.data(), i,
+                                               body.failure.marks()));
     change = std::max(change, largest_stretch_of(left.back().gradient));
   }
   MPI_Allreduce(MPI_IN_PLACE, &change, 1, MPI_DOUBLE, MPI_MAX, communicator);
-  if (kernel.has_changed(change))
-    return false;
+  if (body.kernel.has_changed(change))
+    return Rest::all_kernels;
 
   CrackedParticles cracked;
-  cracked.changed = open_cracks(left);
-  cracked.beside.resize(nodal_state.size());
+  cracked.changed = open(left);
+  cracked.beside.resize(body.nodes.size());
   for (const std::uint32_t i : cracked.changed)
     cracked.beside[i] = 1;
-  cracked.beside = with_neighbors(parts, std::move(cracked.beside));
-  stable.estimate_beside(cracked.beside, parts, *stabilization);
-  const bool calibrates =
-      n_global > 1 && stable.calibration_is_due(parts, step, communicator);
-  if (calibrates)
-    stable.calibrate(parts, *stabilization, step, !stable.is_calibrated(),
-                     communicator);
-  renew_forces(cracked, calibrates);
-  return true;
+  cracked.beside = with_neighbors(body, std::move(cracked.beside));
+  stable.estimate_beside(cracked.beside, body, form);
+  if (stable.calibration_is_due(body, step, communicator))
+  {
+    stable.calibrate(body, form, step, !stable.is_calibrated(), communicator);
+    return Rest::all_forces;
+  }
+  return renew_forces(cracked) ? Rest::nothing : Rest::all_forces;
 }
 
-std::vector<std::uint32_t>
-SpgBody::open_cracks(const std::vector<ParticleApproximation::CrackedRow> &left)
+std::vector<std::uint32_t> CrackUpdate::open(const std::vector<Row> &left)
 {
+  BondFailure &failure = body.failure;
   const std::vector<std::uint32_t> rows = failure.marked_rows(),
                                    n_failed_before = failure.n_failed;
   const std::vector<char> failed_already = failure.is_failed;
-  failure.count(nodal_state, bonds, node_exchange);
-  stabilization->begin_crack_update(parts, rows);
+  failure.count(body.nodes, body.bonds, body.exchange);
+  form.begin_crack_update(body, rows);
   for (const std::uint32_t i : rows)
-    failure.loss[i] += stabilization->held_energy(parts, i);
-  if (failure.remove_from_rows(bonds))
-    stabilization->carry_rows(bonds, rows);
-  bonds.settle();
-  take_functions(rows, left);
-  stabilization->end_crack_update(parts, rows);
+    failure.loss[i] += form.held_energy(body, i);
+  take_functions(left);
+  form.end_crack_update(body, rows);
   for (const std::uint32_t i : rows)
-    failure.loss[i] -= stabilization->held_energy(parts, i);
-  failure.judge(approximation.lost_direction, *residual_strength);
+    failure.loss[i] -= form.held_energy(body, i);
+  failure.judge(approximation.lost_direction, body.residual_strength);
   std::vector<std::uint32_t> changed;
   auto row = rows.begin();
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
     const bool loses_bonds = row != rows.end() && *row == i,
                fails = failure.is_failed[i] && !failed_already[i],
                cracks = n_failed_before[i] == 0 && failure.n_failed[i] > 0;
     row += loses_bonds;
     if (fails)
-      release_stress(parts, i);
+      release_stress(body, i);
     if (loses_bonds || fails || cracks)
       changed.push_back(i);
   }
   return changed;
 }
 
-void SpgBody::renew_forces(const CrackedParticles &cracked, const bool of_all)
+void CrackUpdate::take_functions(const std::vector<Row> &left)
 {
-  const std::size_t n = nodal_state.n_owned;
-  // What couplings have added stays, as at a kernel update.
-  AlignedVector<Vec> added(n);
-  for (std::size_t i = 0; i < n; ++i)
-    added[i] = nodal_state.force[i] - fields.own_force[i];
-  if (of_all || !stabilization->renew_forces(parts, cracked))
-  {
-    evaluate_forces(no_step);
-    for (std::size_t i = 0; i < n; ++i)
-      nodal_state.force[i] += added[i];
-    return;
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    if (cracked.beside[i])
-    {
-      fields.own_force[i] = nodal_state.force[i];
-      nodal_state.force[i] += added[i];
-    }
-}
-
-void SpgBody::take_functions(
-    const std::vector<std::uint32_t> &rows,
-    const std::vector<ParticleApproximation::CrackedRow> &left)
-{
+  const std::vector<std::uint32_t> rows = body.failure.marked_rows();
+  if (body.failure.remove_from_rows(body.bonds))
+    form.carry_rows(body.bonds, rows);
+  body.bonds.settle();
   // Other functions see another F in the same positions. That is no
   // deformation: what F since the kernel update gains F until then loses.
+  ParticleFields &fields = body.fields;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     const std::size_t i = rows[k];
@@ -137,5 +118,23 @@ void SpgBody::take_functions(
     F_before = F;
     approximation.take(i, left[k]);
   }
+}
+
+bool CrackUpdate::renew_forces(const CrackedParticles &cracked)
+{
+  AlignedVector<Vec> &force = body.nodes.force, &own = body.fields.own_force;
+  const std::size_t n = body.nodes.n_owned;
+  AlignedVector<Vec> added(n);
+  for (std::size_t i = 0; i < n; ++i)
+    added[i] = force[i] - own[i];
+  if (!form.renew_forces(body, cracked))
+    return false;
+  for (std::size_t i = 0; i < n; ++i)
+    if (cracked.beside[i])
+    {
+      own[i] = force[i];
+      force[i] += added[i];
+    }
+  return true;
 }
 } // namespace sabot

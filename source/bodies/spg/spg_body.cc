@@ -2,6 +2,7 @@
 // couplings.
 #include "sabot/bodies/spg/spg_body.h"
 
+#include "sabot/bodies/spg/crack_update.h"
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/image_rows.h"
@@ -289,7 +290,13 @@ bool SpgBody::update_topology(const unsigned int step, const double time)
 void SpgBody::update_kernel_and_forces(const unsigned int step,
                                        const bool only_cracks)
 {
-  if (only_cracks && may_update_cracks_alone(step) && update_cracks(step))
+  CrackUpdate cracks(parts, approximation, *stabilization, stable,
+                     communicator);
+  const bool leaves_kernels = only_cracks && cracks.may_leave_kernels(step) &&
+                              !(intake && intake->is_waiting());
+  const CrackUpdate::Rest rest =
+      leaves_kernels ? cracks.update(step) : CrackUpdate::Rest::all_kernels;
+  if (rest == CrackUpdate::Rest::nothing)
     return;
   // The next step begins with half a kick by these forces, and the ledger will
   // count the work that the new bonds and functions do along it.
@@ -297,7 +304,8 @@ void SpgBody::update_kernel_and_forces(const unsigned int step,
   AlignedVector<Vec> added(n);
   for (std::size_t i = 0; i < n; ++i)
     added[i] = nodal_state.force[i] - fields.own_force[i];
-  update_kernel(step, only_cracks);
+  if (rest == CrackUpdate::Rest::all_kernels)
+    update_kernel(step, only_cracks);
   evaluate_forces(no_step); // no problem where nothing is deformed yet
   for (std::size_t i = 0; i < n; ++i)
     nodal_state.force[i] += added[i];

@@ -38,6 +38,24 @@ inline void for_each_range(const std::size_t n_owned, const Wanted &wanted,
   }
 }
 
+/** Start the forces of particles with what their own stress does to them,
+    which is as it was: what generalize_stress() does for those that have
+    changed. After follow_motion(). Local. */
+template <typename Form>
+inline void start_forces(const ParticleRange &range, SpgParts &body,
+                         const Form &form)
+{
+  for (std::size_t i = range.begin; i < range.end; ++i)
+  {
+    const Mat &Q = body.fields.generalized_stress[i];
+    Vec &f = body.nodes.force[i];
+    f = multiply_columns(Q,
+                         body.work.bond_sums[i - range.begin].function_sum());
+    if constexpr (Form::has_bond_forces)
+      f += form.bond_forces_as_they_are(body.bonds, i, Q.row[0][3]);
+  }
+}
+
 /**
  * spg_step() at rest for @p cracked alone: the changed ones go through all of
  * its stages, their neighbors gather their forces anew. What a neighbor's own
@@ -76,15 +94,7 @@ void renew_crack_forces(SpgParts &body, Form &form,
       [&](const ParticleRange &range)
       {
         follow(range);
-        for (std::size_t i = range.begin; i < range.end; ++i)
-        {
-          const Mat &Q = body.fields.generalized_stress[i];
-          Vec &f = body.nodes.force[i];
-          f = multiply_columns(Q,
-                               work.bond_sums[i - range.begin].function_sum());
-          if constexpr (Form::has_bond_forces)
-            f += form.bond_forces_as_they_are(body.bonds, i, Q.row[0][3]);
-        }
+        start_forces(range, body, form);
       });
   body.exchange.update(body.fields.generalized_stress.data());
   form.exchange(body);

@@ -192,29 +192,6 @@ private:
       and the ledger counts its work. Collective. */
   void update_kernel_and_forces(const unsigned int step,
                                 const bool only_cracks);
-  /** Whether kernels may stay as they are where only bonds have failed: not at
-      regular updates and half way between them, under policies that search,
-      with convex functions. */
-  bool may_update_cracks_alone(const unsigned int step) const;
-  /** Bonds that failed go, and what that changes follows, forces as well;
-      kernels, X and all that is away from them stay (doc/theory/spg.md, Kernel
-      update). Collective. @return false, and nothing is done, where the
-      functions that are left see too large a change since the last kernel
-      update. */
-  bool update_cracks(const unsigned int step);
-  /** The part of update_cracks() before steps and forces. @p left: what is
-      left of the functions of failure.marked_rows(). @return the owned
-      particles of which the update has changed something. Collective. */
-  std::vector<std::uint32_t>
-  open_cracks(const std::vector<ParticleApproximation::CrackedRow> &left);
-  /** Forces beside cracks, or of all particles after a calibration, which
-      spends their stress. Collective. */
-  void renew_forces(const CrackedParticles &cracked, const bool of_all);
-  /** The functions of @p rows go over to @p left at the total F and volume of
-      before. */
-  void
-  take_functions(const std::vector<std::uint32_t> &rows,
-                 const std::vector<ParticleApproximation::CrackedRow> &left);
   /** Forces of now, material advanced by @p dt; the body's part is kept.
       Collective. own_force is a copy of the result [n_owned], from which
       later what couplings add can be told. */
