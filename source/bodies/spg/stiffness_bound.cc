@@ -199,6 +199,22 @@ std::vector<char> owned_near(const SpgParts &body,
   return near;
 }
 
+/** Inverse moments, of ghosts too: in the place of the generalized stress where
+    that is found anew, else in @p buffer. Collective. */
+const Mat *moments_with_ghosts(const SpgParts &body, const bool spends_stress,
+                               AlignedVector<Mat> &buffer)
+{
+  const AlignedVector<Mat> &owned = body.approximation.moment_inverse;
+  if (body.exchange.is_trivial())
+    return owned.data();
+  AlignedVector<Mat> &place =
+      spends_stress ? body.fields.generalized_stress : buffer;
+  place.resize(body.nodes.size());
+  std::copy(owned.begin(), owned.end(), place.begin());
+  body.exchange.update(place.data());
+  return place.data();
+}
+
 /** The first half: s and l of every particle that the rows of the wanted ones
     ask for. Collective. */
 Elements find_elements(const SpgParts &body, const std::vector<char> &wanted,
@@ -250,19 +266,8 @@ Elements find_elements(const SpgParts &body, const std::vector<char> &wanted,
     body.exchange.update(values->data());
   }
   if (!body.approximation.stores_gradients())
-  {
-    const AlignedVector<Mat> &owned = body.approximation.moment_inverse;
-    elements.inverse_moment = owned.data();
-    if (!body.exchange.is_trivial())
-    {
-      AlignedVector<Mat> &place =
-          spends_stress ? body.fields.generalized_stress : elements.with_ghosts;
-      place.resize(body.nodes.size());
-      std::copy(owned.begin(), owned.end(), place.begin());
-      body.exchange.update(place.data());
-      elements.inverse_moment = place.data();
-    }
-  }
+    elements.inverse_moment =
+        moments_with_ghosts(body, spends_stress, elements.with_ghosts);
   return elements;
 }
 } // namespace
