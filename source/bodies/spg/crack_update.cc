@@ -5,6 +5,7 @@
 #include "sabot/bodies/spg/crack_forces.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
+#include "sabot/bodies/spg/image_reaction.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/spg/stiffness_bound.h"
@@ -127,6 +128,8 @@ bool CrackUpdate::renew_forces(const CrackedParticles &cracked)
   AlignedVector<Vec> added(n);
   for (std::size_t i = 0; i < n; ++i)
     added[i] = force[i] - own[i];
+  if (body.reaction)
+    body.reaction->settle(own);
   if (!form.renew_forces(body, cracked))
     return false;
   for (std::size_t i = 0; i < n; ++i)

@@ -79,15 +79,20 @@ void renew_crack_forces(SpgParts &body, Form &form,
   std::vector<char> others(cracked.beside.begin(), cracked.beside.begin() + n);
   for (const std::uint32_t i : cracked.changed)
     others[i] = 0;
-  for_each_range(
-      n, [&](const std::size_t i) { return cracked.beside[i] && !others[i]; },
-      [&](const ParticleRange &range)
-      {
-        follow(range);
-        form.trial(range, body);
-        std::fill_n(work.return_factor, range.size(), 1.);
-        generalize_stress<false>(range, work, body, form);
-      });
+  const auto is_beside = [&](const std::size_t i) { return cracked.beside[i]; };
+  const auto has_changed = [&](const std::size_t i)
+  { return cracked.beside[i] && !others[i]; };
+  for_each_range(n, has_changed,
+                 [&](const ParticleRange &range)
+                 {
+                   follow(range);
+                   form.trial(range, body);
+                   std::fill_n(work.return_factor, range.size(), 1.);
+                   generalize_stress<false>(range, work, body, form);
+                 });
+  // What neighbors know of the others is that of the wholes already.
+  body.exchange.make_whole(body.fields.generalized_stress.data(), has_changed);
+  body.exchange.make_whole(body.nodes.force.data(), has_changed);
   // Their stable steps may be shorter by now.
   for_each_range(
       n, [&](const std::size_t i) { return others[i]; },
@@ -101,8 +106,8 @@ void renew_crack_forces(SpgParts &body, Form &form,
   gather_forces<false>(
       ForceViews{body.bonds, body.fields.kernel_reference_position.data(),
                  body.fields.generalized_stress.data(), nullptr, n},
-      form, body.nodes.force.data(),
-      [&](const std::size_t i) { return cracked.beside[i]; });
+      form, body.nodes.force.data(), is_beside);
+  body.exchange.take_shares(body.nodes.force.data(), is_beside);
   form.add_forces(body);
 }
 } // namespace sabot

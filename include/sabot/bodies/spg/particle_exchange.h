@@ -80,19 +80,32 @@ public:
   // What the model has of a particle on planes of symmetry is a share of the
   // whole particle that its neighbors see; all of a whole that acts on it acts
   // on the share in proportion.
-  /** Owned entries of @p data that count the share to those of the whole. */
+  /** Owned entries of @p data that count the share to those of the whole; of
+      particles that @p wanted says. */
+  template <typename T, typename Wanted>
+  void make_whole(T *data, const Wanted &wanted) const
+  {
+    for (const OnPlane &p : on_plane)
+      if (wanted(p.particle))
+        data[p.particle] = p.copies * data[p.particle];
+  }
   template <typename T>
   void make_whole(T *data) const
   {
-    for (const OnPlane &p : on_plane)
-      data[p.particle] = p.copies * data[p.particle];
+    make_whole(data, [](std::size_t) { return true; });
   }
   /** Back. */
+  template <typename T, typename Wanted>
+  void take_shares(T *data, const Wanted &wanted) const
+  {
+    for (const OnPlane &p : on_plane)
+      if (wanted(p.particle))
+        data[p.particle] = 1. / p.copies * data[p.particle];
+  }
   template <typename T>
   void take_shares(T *data) const
   {
-    for (const OnPlane &p : on_plane)
-      data[p.particle] = 1. / p.copies * data[p.particle];
+    take_shares(data, [](std::size_t) { return true; });
   }
   /** Take away what planes hold of a motion of owned particles. */
   void hold(Vec *motion) const
