@@ -49,7 +49,7 @@ struct CrackingBlock
     // Beside the plane x = 2 mm, and here and there.
     for (std::size_t i = 0; i < n.n_owned; ++i)
       if (std::abs(n.reference_position[i][0] - 2e-3) < 0.6e-3 || i % 41 == 0)
-        body->set_state("effective plastic strain", i, 1.);
+        body->rooms().points.state("effective plastic strain")[i] = 1.;
   }
   const SpgParts &rooms() const { return body->rooms(); }
   double volume(const std::size_t i) const
@@ -127,7 +127,9 @@ TEST(CrackUpdate, forces_are_those_of_an_evaluation_of_all)
       // Where no direction is lost; the arm is a few mm.
       if (!std::count(block.rooms().approximation.lost_direction.begin(),
                       block.rooms().approximation.lost_direction.end(), 1))
+      {
         EXPECT_LT(norm(moment) / scale, 1e-3 * 1e-7) << form << rule;
+      }
       block.body->compute_forces(0., 0.);
       for (std::size_t i = 0; i < n.n_owned; ++i)
         EXPECT_LT(norm(n.force[i] - force[i]) / scale, 1e-6)
