@@ -301,6 +301,11 @@ void BondList::reconnect()
   reverse.assign(neighbor.size() + look_ahead, 0u);
   std::iota(reverse.begin(), reverse.begin() + neighbor.size(), 0u);
   reverse_owned();
+  connect_ghosts();
+}
+
+void BondList::connect_ghosts()
+{
   std::vector<int> owners;
   std::vector<GlobalIndex> keys;
   std::vector<MirroredExchange::Turned> turned;
@@ -397,7 +402,7 @@ bool BondList::settle_removal(int has_changed)
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
   if ((n_ranks > 1 || mirror != nullptr) && has_changed)
-    reconnect();
+    connect_ghosts(); // rows have kept the other ends of their own
   return has_changed != 0;
 }
 } // namespace sabot

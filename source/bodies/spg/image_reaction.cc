@@ -18,17 +18,22 @@ Resultant ImageReaction::resultant(const int body,
                                    const AlignedVector<Vec> &own,
                                    MPI_Comm communicator) const
 {
-  ExactVectorSum force, total;
-  for (std::size_t i = 0; i < impulse.size(); ++i)
-  {
-    force.add(own[i]);
-    total.add(impulse[i] + waiting * own[i]);
-  }
-  ExactVectorSum::reduce({&force, &total}, communicator);
-  Resultant sum{"symmetry faces", body, force.value(), total.value(), true};
+  ExactSum force[3], total[3];
   for (int d = 0; d < 3; ++d)
-    if (!(axes >> d & 1))
-      sum.force[d] = sum.impulse[d] = 0.;
+    for (std::size_t i = 0; i < impulse.size() && axes >> d & 1; ++i)
+    {
+      force[d].add(own[i][d]);
+      total[d].add(impulse[i][d] + waiting * own[i][d]);
+    }
+  ExactSum::reduce(
+      {&force[0], &force[1], &force[2], &total[0], &total[1], &total[2]},
+      communicator);
+  Resultant sum{"symmetry faces", body, {}, {}, true};
+  for (int d = 0; d < 3; ++d)
+  {
+    sum.force[d] = force[d].value();
+    sum.impulse[d] = total[d].value();
+  }
   return sum;
 }
 } // namespace sabot

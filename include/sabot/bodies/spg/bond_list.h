@@ -227,6 +227,8 @@ private:
   bool settle_removal(int has_changed);
   /** Finds reverse[] and the exchange of ghosts' bonds again. Collective. */
   void reconnect();
+  /** Of bonds to ghosts and images alone. Collective. */
+  void connect_ghosts();
   /** reverse[] of bonds between owned particles. Throws std::logic_error where
       the two ends do not agree. */
   void reverse_owned();
