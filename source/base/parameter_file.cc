@@ -159,7 +159,7 @@ void ParameterFile::override_by(const std::string &text,
   if (path.empty())
     fail(origin.entry, "",
          "expected \"Section/Name=value\", for example \"End time=2 us\"");
-  Entry entry;
+  SetEntry entry;
   entry.section = split(path, '/');
   entry.name = entry.section.back();
   entry.section.pop_back();
@@ -233,9 +233,9 @@ void ParameterFile::read(const std::string &file,
   open_files.pop_back();
 }
 
-void ParameterFile::add(const Entry &given)
+void ParameterFile::add(const SetEntry &given)
 {
-  Entry entry = given;
+  SetEntry entry = given;
   entry.name = present_name(given.name);
   if (entry.name != given.name)
   {
@@ -252,7 +252,7 @@ void ParameterFile::add(const Entry &given)
     entries.push_back(entry);
     return;
   }
-  Entry &old = entries[known->second];
+  SetEntry &old = entries[known->second];
   if (!entry.file.empty() && old.file == entry.file)
     fail(entry.origin, path,
          "\"" + path + "\" was already set at " + old.origin +
@@ -276,7 +276,7 @@ ParameterFile::subsections(const std::string &path) const
   };
   for (const auto &section : sections)
     consider(section.first);
-  for (const Entry &entry : entries)
+  for (const SetEntry &entry : entries)
     if (!entry.section.empty())
       consider(path_of(entry.section));
   return names;
@@ -336,7 +336,7 @@ void ParameterFile::parse_into(
     Parameters &prm, const std::function<void(Parameters &)> &declare_all) const
 {
   const ordered_json tree = declared_tree(prm);
-  for (const Entry &entry : entries)
+  for (const SetEntry &entry : entries)
   {
     const std::string path = path_of(entry.section, entry.name);
     const ordered_json *node = &tree;

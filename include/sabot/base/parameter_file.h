@@ -91,7 +91,7 @@ public:
 
 private:
   /** What one line, or one override, sets. */
-  struct Entry
+  struct SetEntry
   {
     std::vector<std::string> section;
     std::string name, value, origin, file;
@@ -104,9 +104,9 @@ private:
             std::vector<std::string> &open_files);
   void override_by(const std::string &text, const OverrideOrigin &origin);
   /** Enter under the present name; the last of several files wins. */
-  void add(const Entry &entry);
+  void add(const SetEntry &entry);
 
-  std::vector<Entry> entries;                // in order, each path once
+  std::vector<SetEntry> entries;             // in order, each path once
   std::map<std::string, std::size_t> number; // path -> entries
   std::vector<std::pair<std::string, std::string>> sections; // path, origin
   std::set<std::pair<std::string, std::string>> included;    // section, file
