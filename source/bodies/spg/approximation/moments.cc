@@ -193,10 +193,13 @@ ParticleApproximation::CrackedRow ParticleApproximation::without_bonds(
     if (dead[b])
       continue;
     const std::uint32_t j = bonds.neighbor[b];
-    const Vec dX = X[j] - X[i], xi = to_kernel * dX;
-    add_outer(moment, double(bonds.weight[b]) * xi, xi);
-    add_outer(change, double(bonds.weight[b]) * (x[j] - x[i] - dX), dX);
-    row.spread += bonds.scaled_weight[b] * norm_square(dX);
+    const double w = bonds.weight[b];
+    const Vec dX = X[j] - X[i], xi = to_kernel * dX,
+              xi_there = inverse(fields.kernel[j]) * dX;
+    add_outer(moment, w * xi, xi);
+    add_outer(change, w * (x[j] - x[i] - dX), dX);
+    // Not of scaled weights, whose digits depend on the unit of length.
+    row.spread += 0.5 * w * (norm_square(xi) + norm_square(xi_there));
     ++n_bonds;
   }
   int n_damped = 3;
