@@ -6,8 +6,8 @@
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/particle_contact.h"
 #include "sabot/geometry/round_bodies.h"
+#include "verification/meeting.h"
 #include "verification/problem.h"
-#include "verification/world.h"
 
 namespace sabot
 {
@@ -164,14 +164,7 @@ void fall(const double degrees, const double h, const double factor,
       std::make_unique<RigidBody>("block", 0, turned, elastic(), falling));
   world.bodies.push_back(
       std::make_unique<RigidBody>("wall", 1, wall, elastic(), fixed));
-  world.couplings.push_back(std::make_unique<Contact>(
-      "contact", world.pointers(),
-      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, ContactOptions(),
-      MPI_COMM_WORLD));
-  world.couplings.push_back(std::make_unique<ClosingLimit>(
-      world.pointers(), world.couplings, MPI_COMM_WORLD));
-  world.distribute();
-  world.stepper.initialize();
+  start_meeting(world);
   const double energy = world.bodies[0]->measure().kinetic_energy;
   while (world.stepper.time() < 25e-6)
     world.advance(factor);

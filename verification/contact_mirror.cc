@@ -1,9 +1,7 @@
 // What mirrors itself stays so: coarse balls fall on plates, node on node.
-#include "sabot/couplings/closing_limit.h"
-#include "sabot/couplings/contact.h"
 #include "sabot/geometry/round_bodies.h"
+#include "verification/meeting.h"
 #include "verification/problem.h"
-#include "verification/world.h"
 
 #include <cstdio>
 
@@ -49,14 +47,7 @@ std::array<double, 3> fall(const Fall &f)
       make_sphere(f.radius, {{0., 0., 1.1 * f.radius}}, f.h,
                   f.is_quarter ? 2 : 0),
       elastic(0.3), options));
-  world.couplings.push_back(std::make_unique<Contact>(
-      "contact", world.pointers(),
-      std::vector<ContactPair>{{0, 1, false}, {1, 0, false}}, ContactOptions(),
-      MPI_COMM_WORLD));
-  world.couplings.push_back(std::make_unique<ClosingLimit>(
-      world.pointers(), world.couplings, MPI_COMM_WORLD));
-  world.distribute();
-  world.stepper.initialize();
+  start_meeting(world);
   while (world.stepper.time() < 15e-6)
     world.advance(0.9);
   return world.bodies[1]->measure().velocity;

@@ -1,4 +1,5 @@
 // Contact at planes of symmetry: quarters of models against wholes.
+#include "sabot/base/text.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/friction/coulomb.h"
 #include "verification/halves.h"
@@ -123,7 +124,7 @@ std::vector<Check> problem()
           const bool is_exact = on_particles || friction == 0.;
           checks.push_back(
               {std::string(is_round ? "cylinder" : "block") + " of " +
-                   std::to_string(int(1e4 * width + 0.5) / 10) + " mm on " +
+                   formatted("%g", 1e3 * width) + " mm on " +
                    (on_particles ? "particles" : "cells") +
                    (friction > 0. ? ", friction" : "") +
                    ": positions over spacing",

@@ -2,6 +2,7 @@
 #define sabot_couplings_mirror_images_h
 
 #include "sabot/bodies/body.h"
+#include "sabot/kernels/mirrored.h"
 
 #include <cmath>
 #include <vector>
@@ -11,12 +12,9 @@ namespace sabot
 /** @p v with its components along @p axes turned around: bit d of it stands for
     axis d. The mirror image of a vector (velocity, force, normal) in planes
     across these axes; its own inverse. */
-inline Vec flipped(Vec v, const unsigned int axes)
+inline Vec flipped(const Vec v, const unsigned int axes)
 {
-  for (int d = 0; d < 3; ++d)
-    if (axes >> d & 1)
-      v[d] = -v[d];
-  return v;
+  return v * mirror_signs(axes);
 }
 
 /**

@@ -128,14 +128,6 @@ unsigned int MirrorPlanes::turned_axes(const unsigned int symmetry) const
   return turned;
 }
 
-unsigned int MirrorPlanes::crossed_axes(const unsigned int symmetry) const
-{
-  unsigned int crossed = 0;
-  for (int d = 0; d < 3; ++d)
-    crossed |= (element(symmetry, d) != 0) << d;
-  return crossed;
-}
-
 Vec MirrorPlanes::offset(const unsigned int symmetry) const
 {
   Vec added = {};

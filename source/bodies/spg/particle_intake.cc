@@ -73,9 +73,11 @@ Vec ParticleIntake::free_components(const std::size_t k) const
   if (faces & body.options.clamped_faces)
     return Vec{};
   Vec free = vec(1., 1., 1.);
-  for (unsigned int face = 0; face < body.cloud.face_axis.size(); ++face)
-    if (faces & body.options.symmetry_faces & 1u << face)
-      free[*body.cloud.face_axis[face]] = 0.;
+  const unsigned int held =
+      axes_across(faces & body.options.symmetry_faces, body.cloud.face_axis);
+  for (int d = 0; d < 3; ++d)
+    if (held >> d & 1)
+      free[d] = 0.;
   return free;
 }
 

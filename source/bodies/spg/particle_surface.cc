@@ -127,9 +127,15 @@ ParticleSurface::particles_on(const std::uint32_t faces) const
 
 unsigned int ParticleSurface::symmetry_axes(const std::size_t i) const
 {
+  return axes_across(on_face[i] & symmetry_faces, face_axis);
+}
+
+unsigned int axes_across(const std::uint32_t faces,
+                         const std::vector<std::optional<int>> &face_axis)
+{
   unsigned int axes = 0;
   for (std::size_t face = 0; face < face_axis.size(); ++face)
-    if (on_face[i] & symmetry_faces & 1u << face)
+    if (faces & 1u << face)
       axes |= 1u << *face_axis[face];
   return axes;
 }

@@ -85,8 +85,6 @@ public:
   Vec offset(const unsigned int symmetry) const;
   /** Where the image of a particle at @p x is [m]. */
   Vec place(const unsigned int symmetry, const Vec x) const;
-  /** Bit d: across axis d it is not the identity. */
-  unsigned int crossed_axes(const unsigned int symmetry) const;
 
   /** Call @p visit(symmetry, place) for each image, the identity aside, of a
       particle at @p x on planes @p on that may be closer than @p reach [m] to

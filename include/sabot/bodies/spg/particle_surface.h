@@ -116,6 +116,11 @@ private:
   std::vector<ParticleCloud::FaceShare> kept_shares;
 };
 
+/** Axes across which the planes among @p faces lie, a bit each; @p faces as in
+    ParticleCloud::on_face, @p face_axis as there. */
+unsigned int axes_across(const std::uint32_t faces,
+                         const std::vector<std::optional<int>> &face_axis);
+
 /** Owned particle @p i as part of a volume (Body::volume_point): the shape
     of its kernel, or of a ball where it lost a direction and has none.
     Radius of 1.75 spacings in the shape of F_inc H; content = 12/pi V |det

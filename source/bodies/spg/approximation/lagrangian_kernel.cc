@@ -3,7 +3,9 @@
 
 #include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/kernels/kernel_function.h"
+#include "sabot/kernels/mirrored.h"
 #include "sabot/kernels/principal.h"
 
 #include <algorithm>
@@ -25,24 +27,19 @@ Mat shape_with_images(const ParticleCloud &cloud, const std::size_t i,
                       const std::uint32_t symmetry_faces)
 {
   const Mat &S = cloud.shape[i];
-  unsigned int axes = 0;
-  for (unsigned int face = 0; face < cloud.face_axis.size(); ++face)
-    if (cloud.on_face[i] & symmetry_faces & 1u << face)
-      axes |= 1u << *cloud.face_axis[face];
+  const unsigned int axes =
+      axes_across(cloud.on_face[i] & symmetry_faces, cloud.face_axis);
   if (axes == 0)
     return S;
   constexpr double round_off = 1e-12;
-  Mat square = S * transpose(S);
-  bool has_links = false;
+  const Mat square = S * transpose(S);
+  Mat mean = square;
+  take_mean_of_images(mean, axes);
+  const Mat links = square - mean;
+  double largest = 0.;
   for (int d = 0; d < 3; ++d)
-    for (int e = 0; e < 3; ++e)
-      if (d != e && ((axes >> d | axes >> e) & 1))
-      {
-        has_links =
-            has_links || std::abs(square(d, e)) > round_off * trace(square);
-        square.row[d][e] = 0.;
-      }
-  return has_links ? square_root(square) : S;
+    largest = std::max(largest, norm(links.row[d]));
+  return largest > round_off * trace(square) ? square_root(mean) : S;
 }
 } // namespace
 
