@@ -39,7 +39,10 @@ double alignment(const double cosine)
 void balance_weights(std::vector<NearParticle> &near, const Vec n)
 {
   // w (1 + c . d) has no first moment where the node stands between
-  // particles; beyond the last it gets as near as w >= 0 allows.
+  // particles; beyond the last it gets as near as w >= 0 allows. Where all are
+  // in one direction, or there is one only, c . d is -1 for all of them but for
+  // round-off: then something has to be left of the weights.
+  constexpr double largest_loss = 0.999;
   const auto arm = [&](const NearParticle &p)
   { return p.offset - dot(p.offset, n) * n; };
   Vec first = {};
@@ -62,8 +65,8 @@ void balance_weights(std::vector<NearParticle> &near, const Vec n)
   for (const NearParticle &p : near)
     if (p.weight > 0.)
       least = std::min(least, dot(slope, arm(p)));
-  if (least < -1.)
-    slope *= -1. / least;
+  if (least < -largest_loss)
+    slope *= -largest_loss / least;
   double sum = 0.;
   for (NearParticle &p : near)
   {

@@ -145,6 +145,39 @@ TEST(Standing, a_quarter_with_its_images_is_the_whole)
   }
 }
 
+TEST(Standing, all_that_is_met_on_one_line_bears_all)
+{
+  // A piece that has swollen fills half of the space alone; in what pushes it
+  // nothing tells two of them in one direction apart.
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 2000; ++k)
+  {
+    Vec direction =
+        vec(normal(generator), normal(generator), normal(generator));
+    direction *= 1. / norm(direction);
+    Block few({{h, h, h}}, {{0., 0., 0.}}, Mat::identity());
+    few.position.resize(1 + k % 3);
+    few.volume.resize(few.position.size());
+    for (std::size_t i = 0; i < few.position.size(); ++i)
+    {
+      few.position[i] = 0.1 * double(i) * h * direction;
+      few.volume[i].to_unit = 1. / (3. * h) * Mat::identity();
+      few.volume[i].content = 2.;
+    }
+    std::vector<NearParticle> near;
+    const Standing s = few.standing(1.2 * h * direction, near);
+    ASSERT_GT(s.fade, 0.);
+    double sum = 0.;
+    for (const NearParticle &p : near)
+    {
+      EXPECT_GE(p.weight, 0.);
+      sum += p.weight;
+    }
+    ASSERT_NEAR(sum, 1., 1e-12);
+  }
+}
+
 TEST(Standing, surface_of_a_quarter_cylinder_is_its_foot_top_and_side)
 {
   // Its boundary ids are not in the order of a box's faces, its particles are
