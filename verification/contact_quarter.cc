@@ -2,6 +2,7 @@
 #include "sabot/base/text.h"
 #include "sabot/couplings/contact.h"
 #include "sabot/couplings/friction/coulomb.h"
+#include "sabot/couplings/particle_contact.h"
 #include "verification/halves.h"
 #include "verification/problem.h"
 #include "verification/world.h"
@@ -93,6 +94,32 @@ void strike(World &world, const Blow &blow, const bool quarter)
   world.stepper.initialize();
 }
 
+/** By steps of the same size to @p end [s]. */
+void advance_together(World &whole, World &quarter, const double end)
+{
+  while (whole.stepper.time() < end)
+  {
+    const double dt = 0.7 * std::min(whole.stepper.propose(false).dt,
+                                     quarter.stepper.propose(false).dt);
+    for (World *const world : {&whole, &quarter})
+    {
+      world->stepper.advance(dt);
+      world->stepper.update();
+    }
+  }
+}
+
+/** Largest distance between nodes of the quarter and those of the whole
+    [m]. */
+double worst_of(const World &whole, const World &quarter)
+{
+  double worst = 0.;
+  for (int b = 0; b < 2; ++b)
+    worst = std::max(worst,
+                     largest_difference(*quarter.bodies[b], *whole.bodies[b]));
+  return worst;
+}
+
 std::vector<Check> problem()
 {
   std::vector<Check> checks;
@@ -105,30 +132,18 @@ std::vector<Check> problem()
           World whole, quarter;
           strike(whole, blow, false);
           strike(quarter, blow, true);
-          while (whole.stepper.time() < 3e-6)
-          {
-            const double dt = 0.7 * std::min(whole.stepper.propose(false).dt,
-                                             quarter.stepper.propose(false).dt);
-            for (World *const world : {&whole, &quarter})
-            {
-              world->stepper.advance(dt);
-              world->stepper.update();
-            }
-          }
-          double worst = 0.;
-          for (int b = 0; b < 2; ++b)
-            worst = std::max(worst, largest_difference(*quarter.bodies[b],
-                                                       *whole.bodies[b]));
+          advance_together(whole, quarter, 3e-6);
           // Friction of cells on cells sees which face of the whole was met
           // first.
           const bool is_exact = on_particles || friction == 0.;
-          checks.push_back(
-              {std::string(is_round ? "cylinder" : "block") + " of " +
-                   formatted("%g", 1e3 * width) + " mm on " +
-                   (on_particles ? "particles" : "cells") +
-                   (friction > 0. ? ", friction" : "") +
-                   ": positions over spacing",
-               0., worst / 1e-3, is_exact ? 1e-8 : 1e-3, "1", "symmetry"});
+          checks.push_back({std::string(is_round ? "cylinder" : "block") +
+                                " of " + formatted("%g", 1e3 * width) +
+                                " mm on " +
+                                (on_particles ? "particles" : "cells") +
+                                (friction > 0. ? ", friction" : "") +
+                                ": positions over spacing",
+                            0., worst_of(whole, quarter) / 1e-3,
+                            is_exact ? 1e-8 : 1e-3, "1", "symmetry"});
           if (friction == 0.)
             checks.push_back({"speed lost by the whole", 70.,
                               200. + whole.bodies[1]->measure().velocity[2], 0.,
@@ -137,6 +152,69 @@ std::vector<Check> problem()
         }
   return checks;
 }
+
+/** Two blocks of particles that may fail, the upper one the smaller. */
+void strike_particles(World &world, const double friction,
+                      const double critical, const bool quarter)
+{
+  for (const bool is_upper : {false, true})
+  {
+    SpgOptions options;
+    options.initial_velocity = {{0., 0., is_upper ? -200. : 100.}};
+    if (quarter)
+      options.symmetry_faces = 1 | 4;
+    if (critical > 0.)
+      options.set_critical_plastic_strain(critical);
+    const double width = is_upper ? 6e-3 : 8e-3;
+    const auto [size, center] =
+        part_of({{width, 8e-3, 3e-3}}, is_upper ? 1.51e-3 : -1.5e-3, quarter);
+    world.bodies.push_back(std::make_unique<SpgBody>(
+        is_upper ? "block" : "plate", world.bodies.size(),
+        make_box_cloud(center, size, 1e-3), taylor_copper(), options));
+  }
+  ContactOptions options;
+  if (friction > 0.)
+    options.friction = coulomb(friction);
+  world.couplings.push_back(std::make_unique<ParticleContact>(
+      "impact", world.pointers(), std::vector<std::pair<int, int>>{{0, 1}},
+      options, MPI_COMM_WORLD));
+  world.distribute();
+  world.stepper.initialize();
+}
+
+std::vector<Check> of_particles()
+{
+  std::vector<Check> checks;
+  for (const double critical : {0., 0.05})
+    for (const double friction : {0., 0.3})
+    {
+      World whole, quarter;
+      strike_particles(whole, friction, critical, false);
+      strike_particles(quarter, friction, critical, true);
+      advance_together(whole, quarter, 3e-6);
+      checks.push_back(
+          {std::string(critical > 0. ? "failing " : "") + "blocks" +
+               (friction > 0. ? ", friction" : "") + ": positions over spacing",
+           0., worst_of(whole, quarter) / 1e-3, 1e-8, "1", "symmetry"});
+      if (friction == 0.)
+        checks.push_back({"speed lost by the whole", 70.,
+                          200. + whole.bodies[1]->measure().velocity[2], 0.,
+                          "m/s", "so that they have met",
+                          Check::Kind::at_least});
+      if (critical > 0.)
+        checks.push_back({"share of failed bonds", 0.05,
+                          measure(*whole.bodies[1], "bonds broken fraction"),
+                          0., "1", "so that metal fails",
+                          Check::Kind::at_least});
+    }
+  return checks;
+}
+
+const RegisterProblem particles(
+    {"contact-quarter-particles",
+     "blocks of particles that meet, quarters against wholes, also such that "
+     "fail",
+     "quick", of_particles});
 
 const RegisterProblem
     registered({"contact-quarter",

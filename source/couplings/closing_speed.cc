@@ -41,7 +41,7 @@ double largest_square(const Vec *const velocity, const std::size_t n,
 
 double ClosingSpeed::largest(const std::vector<Body *> &bodies,
                              const std::vector<std::pair<int, int>> &pairs,
-                             MPI_Comm communicator, const unsigned int mirrored)
+                             MPI_Comm communicator)
 {
   const std::size_t n = bodies.size();
   std::vector<char> used(n, 0);
@@ -50,9 +50,12 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
   // Squares of bodies, then the box around all velocities, for the next time.
   std::vector<double> top(n + 6, 0.);
   std::fill(top.begin() + n, top.end(), -1e300);
+  unsigned int mirrored = 0;
   for (std::size_t b = 0; b < n; ++b)
     if (used[b])
     {
+      for (const SymmetryPlane &plane : bodies[b]->planes_of_symmetry())
+        mirrored |= 1u << plane.axis;
       const NodalState &nodes = bodies[b]->nodes();
       Box box;
       top[b] =

@@ -84,14 +84,6 @@ DebrisImages::DebrisImages(const std::vector<Body *> &bodies)
     }
 }
 
-unsigned int DebrisImages::axes() const
-{
-  unsigned int found = 0;
-  for (const SymmetryWall &wall : walls)
-    found |= 1u << wall.plane.axis;
-  return found;
-}
-
 Vec DebrisImages::mirrored(const std::uint64_t image, Vec x) const
 {
   for (std::size_t w = 0; w < walls.size(); ++w)

@@ -94,8 +94,8 @@ Standing stand_on_surface(const StandingNode &node,
   {
     p.weight = 0.;
     const SurfacePoint &point = points[p.slot];
-    Vec n = point.normal;
-    double facing = norm_square(n) > 0. && p.turned == 0 ? 1. : 0.;
+    Vec n = flipped(point.normal, p.turned);
+    double facing = norm_square(n) > 0. ? 1. : 0.;
     if (has_normal)
     {
       facing *= alignment(-dot(node.own.normal, n));
@@ -124,7 +124,7 @@ Standing stand_on_surface(const StandingNode &node,
   for (const NearParticle &p : near)
     if (p.weight > 0.)
     {
-      Vec n = points[p.slot].normal;
+      Vec n = flipped(points[p.slot].normal, p.turned);
       if (has_normal)
         n = points[p.slot].flatness * n - node.own.flatness * node.own.normal;
       gap += p.weight * dot(p.offset, (1. / norm(n)) * n);

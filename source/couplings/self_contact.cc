@@ -50,9 +50,8 @@ void SelfContact::initialize()
 
 void SelfContact::update_search(const unsigned int, const double dt)
 {
-  age.traveled += age.closing_speed.largest(bodies, body_pairs, communicator,
-                                            images.axes()) *
-                  dt;
+  age.traveled +=
+      age.closing_speed.largest(bodies, body_pairs, communicator) * dt;
   // Newly failed particles are met at the next search; those that come close
   // by then were bonded until the last kernel update.
   if (age.traveled > skin || age.have_changed(bodies))

@@ -39,8 +39,6 @@ public:
   /** Before the bodies are distributed. */
   explicit DebrisImages(const std::vector<Body *> &bodies);
   bool any() const { return !walls.empty(); }
-  /** Those across which something is mirrored, a bit each. */
-  unsigned int axes() const;
   /** @p x as mirrored in @p image. */
   Vec mirrored(const std::uint64_t image, Vec x) const;
   /** Axes along which vectors of an image are turned around, for flipped(). */

@@ -58,6 +58,18 @@ public:
         x[near[i].axis] = 2. * near[i].coordinate - x[near[i].axis];
     return x;
   }
+  /** Whether image number @p image of a point at @p x is where one of fewer
+      planes is, since the point lies on one of its planes, within @p tolerance
+      [m]. */
+  bool repeats(const Vec x, const unsigned int image,
+               const double tolerance) const
+  {
+    for (std::size_t i = 0; i < near.size(); ++i)
+      if (image >> i & 1 &&
+          std::abs(x[near[i].axis] - near[i].coordinate) < tolerance)
+        return true;
+    return false;
+  }
 
 private:
   std::vector<SymmetryPlane> near; // a bit of the image's number each

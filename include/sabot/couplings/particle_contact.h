@@ -91,11 +91,16 @@ private:
                      const std::vector<Member> &all_members);
   /** Halo and slots of the groups. Collective. */
   void build_halo();
+  /** Of the slots of the present halo. Collective. */
+  void find_shares();
   /** Friction that the node and what it touches bear [N]. */
   double largest_friction(const Group &group, const Slots &at) const;
   /** Motion of all slots, and what surface and volume they are part of now.
       Collective. */
   void update_halo();
+  /** The group's particles, and their images in planes of symmetry, each as
+      often as the whole has it; @p x: where the node is [m]. */
+  void gather_near(const Group &group, const Slots &at, const Vec x);
   /** Where the node stands: against the sound surface, if it is on the surface
       of its own body and there is one, else against the volume. Weights go to
       near[]. */
@@ -123,7 +128,8 @@ private:
   std::vector<NearParticle> touched;   // by the points, one after the other
   std::vector<char> is_on_surface;     // per slot
   AlignedVector<SurfacePoint> surface; // per slot
-  AlignedVector<VolumePoint> volume;   // per slot
+  AlignedVector<VolumePoint> volume;   // per slot, contents of the whole
+  std::vector<double> share;           // per slot, ContactSurface::node_share
   std::vector<std::vector<SymmetryPlane>> symmetry_planes; // of bodies
   MirrorImages images;
   std::vector<double> flow_stress; // per slot, at the last search; may be empty

@@ -39,7 +39,8 @@ struct StandingNode
  * R = 1.5 spacings: gap = sum w_j d . n_j, exact for planes wherever the node
  * stands, so that a lattice that slides on another feels no bumps. It fades
  * where the surface ends: W = sum phi falls to half of its mean over a plane
- * half a spacing beyond the rim. Sets the weights of @p near.
+ * half a spacing beyond the rim. Sets the weights of @p near, which has the
+ * images in planes of symmetry too, each particle on a plane once.
  */
 Standing stand_on_surface(const StandingNode &node,
                           std::vector<NearParticle> &near,
@@ -50,8 +51,7 @@ Standing stand_on_surface(const StandingNode &node,
  * order: the filled part f = sum content phi(|to_unit d|) of the space at the
  * node is 1/2 on the surface of a lattice, gap = (1/2 - f)/|grad f|, normal
  * -grad f/|grad f|. Deep inside, where f is 1, no side is nearer and nothing
- * acts. Sets the weights of @p near, which has the images in planes of symmetry
- * too.
+ * acts. Sets the weights of @p near, images as above.
  */
 Standing stand_in_volume(std::vector<NearParticle> &near,
                          const AlignedVector<VolumePoint> &points);
