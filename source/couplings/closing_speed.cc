@@ -51,11 +51,12 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
   std::vector<double> top(n + 6, 0.);
   std::fill(top.begin() + n, top.end(), -1e300);
   unsigned int mirrored = 0;
+  for (const Body *body : bodies)
+    for (const SymmetryPlane &plane : body->planes_of_symmetry())
+      mirrored |= 1u << plane.axis;
   for (std::size_t b = 0; b < n; ++b)
     if (used[b])
     {
-      for (const SymmetryPlane &plane : bodies[b]->planes_of_symmetry())
-        mirrored |= 1u << plane.axis;
       const NodalState &nodes = bodies[b]->nodes();
       Box box;
       top[b] =

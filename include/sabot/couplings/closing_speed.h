@@ -14,16 +14,16 @@ namespace sabot
  * the other [m/s]: max over pairs of |v_a - m| + |v_b - m|, each the largest of
  * its body. A bound whatever m is: it is the middle of the box around all
  * velocities of the bodies in the pairs when it was last asked for, so what
- * flies along with the scene costs nothing. Across planes of symmetry of these
- * bodies m is nothing, as in the whole, which so is searched at the same steps:
- * m is its own image, and the bound that of nodes and images as well:
- * |v_a - R v_b| <= |v_a - m| + |v_b - m|. One look at all nodes, one
- * reduction.
+ * flies along with the scene costs nothing. Across planes of symmetry of any
+ * body, which are walls for all, m is nothing, as in the whole, which so is
+ * searched at the same steps: m is its own image, and the bound that of nodes
+ * and images as well: |v_a - R v_b| <= |v_a - m| + |v_b - m|. One look at all
+ * nodes, one reduction.
  */
 class ClosingSpeed
 {
 public:
-  /** Collective, the same on all ranks. */
+  /** @p bodies: all of the scene. Collective, the same on all ranks. */
   double largest(const std::vector<Body *> &bodies,
                  const std::vector<std::pair<int, int>> &pairs,
                  MPI_Comm communicator);
