@@ -22,10 +22,14 @@ struct CrackingBlock
   const Mat A = {
       {vec(1.04, 0.015, 0.), vec(-0.01, 1.03, 0.02), vec(0.01, 0., 1.01)}};
 
+  using Approximation = SpgOptions::Approximation;
+
   CrackingBlock(const double noise, const char *const rule = "friction",
-                const char *const form = "bond residual")
+                const char *const form = "bond residual",
+                const Approximation functions = Approximation::least_squares)
   {
     SpgOptions options;
+    options.approximation = functions;
     options.set_critical_plastic_strain(0.45);
     options.residual_strength = choose<ResidualStrength>(rule);
     options.stabilization = choose<Stabilization>(form);
@@ -161,11 +165,21 @@ TEST(CrackUpdate, functions_stay_exact_for_linear_fields)
 
 TEST(CrackUpdate, steps_are_stable)
 {
-  CrackingBlock block(2e-5);
-  ASSERT_TRUE(block.body->update_topology(5, 0.));
-  block.body->compute_forces(0., 0.);
-  EXPECT_LE(block.body->stable_step().dt * block.body->largest_frequency(60),
-            2.);
+  using Approximation = SpgOptions::Approximation;
+  for (const auto &[form, functions] :
+       {std::pair{"bond residual", Approximation::least_squares},
+        {"bond residual", Approximation::convex_exponential},
+        {"second gradient", Approximation::convex_exponential},
+        {"second gradient", Approximation::convex_arctangent}})
+    for (const double noise : {5e-6, 2e-5, 1e-4})
+    {
+      CrackingBlock block(noise, "friction", form, functions);
+      ASSERT_TRUE(block.body->update_topology(5, 0.));
+      block.body->compute_forces(0., 0.);
+      EXPECT_LE(
+          block.body->stable_step().dt * block.body->largest_frequency(60), 2.)
+          << form << ", " << int(functions) << ", noise " << noise;
+    }
 }
 
 TEST(CrackUpdate, kernels_follow_at_regular_updates)

@@ -245,25 +245,40 @@ void SecondGradient::gather(const SpgParts &body,
   body.exchange.take_shares(force);
 }
 
+/** Root of the sum of all squares. */
+double size_of(const Mat &b)
+{
+  return std::sqrt(contract(b, b));
+}
+
 void SecondGradient::add_row_sums(const SpgParts &body,
                                   std::vector<double> &sums) const
 {
+  // Row i of sum_p V_p B_p^T C B_p: what particle p has of i, times what it has
+  // of all. Of itself a particle has minus the sum of the others.
   const BondList &bonds = body.bonds;
   const Material &law = body.points.law();
   const double c = law.sound_speed(), modulus = law.density() * c * c;
-  std::vector<double> volume(body.fields.kernel_reference_volume);
-  volume.resize(body.nodes.size());
-  body.exchange.make_whole(volume.data());
-  body.exchange.update(volume.data());
+  std::vector<double> all(body.fields.kernel_reference_volume);
+  all.resize(body.nodes.size());
+  body.exchange.make_whole(all.data());
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
-    double row = 0.;
+    Mat own = Mat::zero();
+    double others = 0.;
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      for (int k = 0; k < 3; ++k)
-        row += 4. * modulus * volume[bonds.neighbor[b]] *
-               norm_square(bond_gradient[bonds.reverse[b]].row[k]);
-    sums[i] += row;
+    {
+      own = own + bond_gradient[b];
+      others += size_of(bond_gradient[b]);
+    }
+    all[i] *= modulus * (size_of(own) + others);
+    sums[i] += all[i] * size_of(own);
   }
+  body.exchange.update(all.data());
+  for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+      sums[i] +=
+          all[bonds.neighbor[b]] * size_of(bond_gradient[bonds.reverse[b]]);
 }
 
 void SecondGradient::add_linearized(const SpgParts &body,
