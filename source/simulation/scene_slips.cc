@@ -74,6 +74,47 @@ public:
       say(path, file.value(path, "") + " is finer than the \"Cell size\" of " +
                     formatted("%.4g mm", 1e3 * *fine) +
                     "; cells grow from that to this");
+    const std::string start = "Bodies/" + body + "/",
+                      geometry = file.value(start + "Geometry", "box");
+    if (geometry == "box")
+      look_at_grading_of_box(start, body);
+    else if (geometry == "cylinder" && coarse &&
+             number(start + "Growth ratio").value_or(1.) == 1.)
+      say(path, "has no effect: rings of cells grow by the \"Growth ratio\", "
+                "which is 1; give one above, for example 1.15");
+  }
+
+  /** What is to grow away from a fine part that there is not. */
+  void look_at_grading_of_box(const std::string &start, const std::string &body)
+  {
+    const bool is_refined =
+        number(start + "Refined zone size").value_or(0.) > 0.;
+    if (!is_refined && file.is_set(start + "Refined zone center"))
+      say(start + "Refined zone center",
+          "has no effect without \"Refined zone size\"");
+    if (is_refined || is_meshed_around_zone(body))
+      return;
+    for (const std::string entry : {"Coarsest cell size", "Growth ratio"})
+      if (file.value(start + entry, "none") != "none")
+        return say(start + entry,
+                   "has no effect: cells grow away from the fine part of a "
+                   "box, and this has none; give a \"Refined zone size\", or "
+                   "carve a fixed zone, a box, from it");
+  }
+
+  /** Whether a listed zone is a box of its own lattice in this box. */
+  bool is_meshed_around_zone(const std::string &body) const
+  {
+    for (const std::string &name :
+         split_names(file.value("List of bodies", "")))
+    {
+      const std::string start = "Bodies/" + name + "/";
+      if (file.value(start + "Carve from", "") == body &&
+          file.value(start + "Geometry", "box") == "box" &&
+          file.value(start + "Zone", "fixed") == "fixed")
+        return true;
+    }
+    return false;
   }
 
   /** The cut faces of a half or quarter want planes of symmetry. */

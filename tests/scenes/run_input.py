@@ -539,6 +539,14 @@ end
         warns({"Rotation center": "0 mm, 0 mm, 1 mm",
                "Yaw pitch roll": "30 deg, 0 deg, 0 deg"})
         warns({"Refined zone size": "0 mm, 0 mm, 0 mm"})
+        fine = {"Refined zone size": "2 mm, 2 mm, 2 mm"}
+        for grading in ({"Coarsest cell size": "4 mm"}, {"Growth ratio": "1.3"}):
+            warns(grading, "this has none")
+            warns({**grading, **fine})
+        rod = {"Geometry": "cylinder", "Radius": "8 mm", "Length": "8 mm",
+               "Material": "steel", "Coarsest cell size": "4 mm"}
+        self.assertWarns(scene({"rod": rod}), "rings of cells grow")
+        self.assertWarns(scene({"rod": {**rod, "Growth ratio": "1.2"}}))
         self.assertRefused(
             scene({"block": {**BLOCK, "Refined zone size": "2 mm, 0 mm, 2 mm"}}),
             "Bodies/block/Refined zone size", "all three")
