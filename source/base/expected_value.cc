@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 
 namespace sabot
 {
@@ -53,6 +54,24 @@ bool mixes_units(const std::string &value)
   return has_units && lacks_units;
 }
 
+/** What stands behind the last number of @p value, also without a blank between
+    them. */
+std::string last_unit(const std::string &value)
+{
+  const std::string last = value.substr(value.find_last_of(" ,") + 1);
+  char *end = nullptr;
+  std::strtod(last.c_str(), &end);
+  return end;
+}
+
+/** A unit as people write it elsewhere: other cases, longer words for s. */
+bool means_unit(const std::string &word, const std::string &unit)
+{
+  const std::string lower = lower_case(word);
+  return lower_case(unit) == lower.substr(0, lower.find("sec") + 1) ||
+         lower_case(unit) == lower;
+}
+
 /** What to write instead of a value as people write it elsewhere. */
 std::string advice(const std::string &pattern, const std::string &value)
 {
@@ -65,15 +84,14 @@ std::string advice(const std::string &pattern, const std::string &value)
            replaced(value, ",", ".");
   if (!is_one && mixes_units(value))
     return "; some numbers have a unit and others none: give each its own";
-  const std::string word = value.substr(value.find_last_of(" ,") + 1),
-                    mark = "(units ";
+  const std::string word = last_unit(value), mark = "(units ";
   const std::size_t units = pattern.find(mark);
-  if (units != std::string::npos && !word.empty() && !is_digit(word.back()))
+  if (units != std::string::npos && !word.empty())
     for (const std::string &unit :
          split(pattern.substr(units + mark.size(),
                               pattern.find(';', units) - units - mark.size()),
                ','))
-      if (unit != word && lower_case(unit) == lower_case(word))
+      if (unit != word && means_unit(word, unit))
         return "; did you mean the unit " + unit + "?";
   if (!value.empty() && value.back() == '%')
     return "; write a share of 1, as in 0.3 for 30 %";
