@@ -1,6 +1,7 @@
 // The SPG body: composes its rooms, drives kernel updates, and shows itself to
 // couplings.
 #include "sabot/bodies/spg/spg_body.h"
+#include "sabot/bodies/spg/smooth_reference.h"
 
 #include "sabot/bodies/spg/crack_update.h"
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
@@ -323,6 +324,9 @@ void SpgBody::update_kernel(const unsigned int step, const bool only_cracks)
   const std::size_t n = nodal_state.n_owned;
   stabilization->begin_kernel_update(parts);
   stable.carry(fields);
+  const std::optional<AlignedVector<Vec>> sawtooth =
+      options.stores_gradients() ? std::nullopt
+                                 : find_sawtooth(parts, communicator);
   kernel.follow(fields);
   if (failure.keeps_crumbled())
     for (std::size_t i = 0; i < n; ++i)
@@ -365,7 +369,15 @@ void SpgBody::update_kernel(const unsigned int step, const bool only_cracks)
   }
 
   fields.kernel_reference_position = nodal_state.position;
+  if (sawtooth)
+  {
+    for (std::size_t i = 0; i < n; ++i)
+      fields.kernel_reference_position[i] -= (*sawtooth)[i];
+    node_exchange.update_positions(fields.kernel_reference_position.data());
+  }
   update_functions();
+  if (sawtooth)
+    settle_gradients(parts);
   stabilization->end_kernel_update(parts, lost_before);
   failure.judge(approximation.lost_direction, *residual_strength);
   for (std::size_t i = 0; i < n; ++i)
