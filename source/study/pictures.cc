@@ -134,8 +134,13 @@ ExitCode draw_picture(const PictureArguments &arguments)
 {
   const nlohmann::ordered_json section = section_of(arguments);
   if (!fs::exists(arguments.folder + "/sabot.pvd"))
-    throw InputError("", "\"" + arguments.folder +
-                             "\" holds no fields (sabot.pvd) of a run");
+    throw InputError(
+        "", "\"" + arguments.folder +
+                "\" holds no fields (sabot.pvd) of a run" +
+                (fs::exists(arguments.folder + "/parameters.prm")
+                     ? ": its scene lists no output of type VTU; add one and "
+                       "run it again"
+                     : ""));
   const std::string file = section["file"];
   const std::string folder = fs::path(file).parent_path().string();
   make_folder(folder);

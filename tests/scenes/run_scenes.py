@@ -1346,6 +1346,13 @@ class Scenes(unittest.TestCase):
             done = sabot("picture", *arguments)
             self.assertEqual(done.returncode, code, done.stdout)
             self.assertIn(expected, done.stdout)
+        blind = folder("picture-of-nothing")
+        done = sabot("run", BAR, "-o", blind, "--quiet", "--set",
+                     "List of outputs=")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = sabot("picture", blind)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("lists no output of type VTU", done.stdout)
         # Where nothing can draw, the message says what is missing.
         done = subprocess.run([SABOT, "picture", out], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, universal_newlines=True,
