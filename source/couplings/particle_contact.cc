@@ -21,14 +21,14 @@ ParticleContact::ParticleContact(const std::string &name,
 
 void ParticleContact::initialize()
 {
-  skin = 1e300;
+  way.skin = 1e300;
   symmetry_planes.resize(bodies.size());
   for (const auto &[a, b] : pairs)
     for (const int body : {a, b})
     {
       const ContactSurface its = bodies[body]->contact_surface();
       symmetry_planes[body] = its.symmetry_planes;
-      skin = std::min(skin, 0.4 * its.spacing);
+      way.skin = std::min(way.skin, 0.4 * its.spacing);
     }
   search();
   update_halo();
@@ -47,7 +47,7 @@ void ParticleContact::update_search(const unsigned int, const double dt)
 {
   age.traveled += age.closing_speed.largest(bodies, pairs, communicator) * dt;
   // Bodies that grow have new particles at once.
-  if (age.traveled > allowance || age.have_changed(bodies))
+  if (age.traveled > way.allowance || age.have_changed(bodies))
     search();
 }
 
@@ -232,7 +232,7 @@ Measures ParticleContact::measure() const
 void ParticleContact::visit_state(StateVisitor &visitor)
 {
   age.visit_state(visitor);
-  visitor.visit_value("allowance", allowance);
+  visitor.visit_value("allowance", way.allowance);
   visitor.visit_largest("penetration", over_spacing.largest);
   visitor.visit_value("steady step", points.steady_step.value);
   shared_work.visit_state(visitor);

@@ -32,8 +32,8 @@ ParticleContact::Group ParticleContact::make_group(
 void ParticleContact::search()
 {
   age.traveled = 0.;
-  const ParticleSearch found(bodies, pairs, skin, communicator);
-  allowance = std::max(skin, found.gap());
+  const ParticleSearch found(bodies, pairs, way.skin, communicator);
+  way.allowance = std::max(way.skin, found.gap());
   // Owners look for what their nodes may touch.
   std::vector<Group> my_groups;
   std::vector<Member> my_members;

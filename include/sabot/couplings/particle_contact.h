@@ -135,8 +135,11 @@ private:
   std::vector<double> flow_stress; // per slot, at the last search; may be empty
   NodeHalo halo;
   HaloForces forces;
-  double skin = 0.;      // [m], by which candidates may approach
-  double allowance = 0.; // [m], of travel until the next search
+  struct Ways
+  {
+    double skin = 0.;      // [m], by which candidates may approach
+    double allowance = 0.; // [m], of travel until the next search
+  } way;
   SearchAge age;
   struct Depth
   {
