@@ -251,6 +251,10 @@ std::vector<Check> methods()
                                 SpgOptions::Approximation::convex_exponential;
                             o.normalized_support = 1.6;
                             o.stabilization = choose<Stabilization>(form);
+                            // Its length is at most 2 c times the step, which
+                            // is measured to a percent.
+                            o.bulk_viscosity_linear = 0.;
+                            o.bulk_viscosity_quadratic = 0.;
                           }),
                   1e-7));
   append(all, checks("velocity smoothing",

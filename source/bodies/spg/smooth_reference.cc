@@ -18,8 +18,8 @@ namespace
     and from which they take away all of the sawtooth. It was seen to grow from
     0.11 on, and not at 0.06. */
 constexpr double low_pressure = 0.04, high_pressure = 0.08;
-/** Of a sawtooth one pass takes 0.6 to 1 away, of waves of length l some
-    (h/l)^2. */
+/** Each takes most of a sawtooth away, and of a wave of length l some (h/l)^2.
+ */
 constexpr int n_passes = 4;
 
 /** What part of its sawtooth each owned particle loses. Crumbled and cracked
@@ -28,8 +28,8 @@ std::vector<double> parts_to_take(const SpgParts &body)
 {
   const double K = body.points.law().bulk_modulus();
   const double *const xx = body.points.stress_row(0),
-                     *const yy = body.points.stress_row(1),
-                     *const zz = body.points.stress_row(2);
+                      *const yy = body.points.stress_row(1),
+                      *const zz = body.points.stress_row(2);
   std::vector<double> part(body.nodes.n_owned, 0.);
   for (std::size_t i = 0; i < part.size(); ++i)
     if (body.failure.n_failed[i] == 0 && !body.failure.has_crumbled(i) &&
@@ -44,8 +44,8 @@ std::vector<double> parts_to_take(const SpgParts &body)
 }
 
 /** Half of how far particle @p i at @p x is off the middle of its neighbors,
-    beyond the linear field of the motion [m]. Of a sawtooth in a lattice that is
-    its own part, where all neighbors have the opposite one. */
+    beyond the linear field of the motion [m]. Of a sawtooth in a lattice that
+   is its own part, where all neighbors have the opposite one. */
 Vec off_the_middle(const SpgParts &body, const AlignedVector<Vec> &x,
                    const std::size_t i)
 {
@@ -94,7 +94,7 @@ std::optional<AlignedVector<Vec>> find_sawtooth(const SpgParts &body,
 void settle_gradients(SpgParts &body)
 {
   const Vec *const x = body.nodes.position.data(),
-            *const X = body.fields.kernel_reference_position.data();
+                   *const X = body.fields.kernel_reference_position.data();
   const BondList &bonds = body.bonds;
   ParticleFields &fields = body.fields;
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)

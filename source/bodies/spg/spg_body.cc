@@ -1,13 +1,13 @@
 // The SPG body: composes its rooms, drives kernel updates, and shows itself to
 // couplings.
 #include "sabot/bodies/spg/spg_body.h"
-#include "sabot/bodies/spg/smooth_reference.h"
 
 #include "sabot/bodies/spg/crack_update.h"
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/image_rows.h"
 #include "sabot/bodies/spg/neighbor_search.h"
+#include "sabot/bodies/spg/smooth_reference.h"
 #include "sabot/bodies/spg/spg_mass_scaling.h"
 
 #include <algorithm>
