@@ -3,6 +3,7 @@
 
 #include "sabot/base/nodal_state.h"
 #include "sabot/bodies/spg/approximation/approximation.h"
+#include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/particle_exchange.h"
@@ -21,6 +22,10 @@ constexpr double low_pressure = 0.04, high_pressure = 0.08;
 /** Each takes most of a sawtooth away, and of a wave of length l some (h/l)^2.
  */
 constexpr int n_passes = 4;
+/** No place moves by more than this part of the spacing: a sawtooth that drives
+    itself has a few hundredths, and more is what strong curvature looks like.
+ */
+constexpr double farthest = 0.05;
 
 /** What part of its sawtooth each owned particle loses. Crumbled and cracked
     metal has no regular neighborhood to be smooth against. */
@@ -88,6 +93,9 @@ std::optional<AlignedVector<Vec>> find_sawtooth(const SpgParts &body,
     }
     body.exchange.update_positions(x.data());
   }
+  for (std::size_t i = 0; i < n; ++i)
+    sawtooth[i] *= std::min(1., farthest * body.kernel.local_spacing(i) /
+                                    std::max(norm(sawtooth[i]), 1e-300));
   return sawtooth;
 }
 
