@@ -5,9 +5,9 @@
 #include "sabot/bodies/spg/approximation/approximation.h"
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
-#include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/particle_exchange.h"
 #include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/spg_options.h"
 
 #include <algorithm>
 
@@ -27,8 +27,24 @@ constexpr int n_passes = 4;
  */
 constexpr double farthest = 0.05;
 
-/** What part of its sawtooth each owned particle loses. Crumbled and cracked
-    metal has no regular neighborhood to be smooth against. */
+/** Squares of stretches up to which neighbors still lie as in a lattice, so
+   that who is off their middle is off his place. */
+constexpr double largest_stretch = 2.25;
+
+/** Whether a particle with the total gradient @p F is neither stretched nor
+    flattened by more; |F|^2 - 2 bounds the largest stretch. */
+bool is_nearly_lattice(const Mat &F)
+{
+  const auto square = [](const Mat &A)
+  {
+    return norm_square(A.row[0]) + norm_square(A.row[1]) +
+           norm_square(A.row[2]);
+  };
+  return square(F) - 2. < largest_stretch &&
+         square(inverse(F)) - 2. < largest_stretch;
+}
+
+/** What part of its sawtooth each owned particle loses. */
 std::vector<double> parts_to_take(const SpgParts &body)
 {
   const double K = body.points.law().bulk_modulus();
@@ -37,14 +53,13 @@ std::vector<double> parts_to_take(const SpgParts &body)
                       *const zz = body.points.stress_row(2);
   std::vector<double> part(body.nodes.n_owned, 0.);
   for (std::size_t i = 0; i < part.size(); ++i)
-    if (body.failure.n_failed[i] == 0 && !body.failure.has_crumbled(i) &&
-        !body.approximation.lost_direction[i])
-    {
-      const double pressure = -(xx[i] + yy[i] + zz[i]) / 3.;
-      part[i] = std::clamp((pressure / K - low_pressure) /
-                               (high_pressure - low_pressure),
-                           0., 1.);
-    }
+  {
+    const double pressure = -(xx[i] + yy[i] + zz[i]) / 3.;
+    if (pressure > low_pressure * K && !body.approximation.lost_direction[i] &&
+        is_nearly_lattice(body.fields.deformation_gradient(i)))
+      part[i] = std::min(1., (pressure / K - low_pressure) /
+                                 (high_pressure - low_pressure));
+  }
   return part;
 }
 
@@ -73,6 +88,8 @@ Vec off_the_middle(const SpgParts &body, const AlignedVector<Vec> &x,
 std::optional<AlignedVector<Vec>> find_sawtooth(const SpgParts &body,
                                                 MPI_Comm communicator)
 {
+  if (body.options.stores_gradients() || body.options.can_fail())
+    return std::nullopt;
   const std::vector<double> part = parts_to_take(body);
   int any = std::any_of(part.begin(), part.end(),
                         [](const double p) { return p > 0.; });

@@ -325,8 +325,7 @@ void SpgBody::update_kernel(const unsigned int step, const bool only_cracks)
   stabilization->begin_kernel_update(parts);
   stable.carry(fields);
   const std::optional<AlignedVector<Vec>> sawtooth =
-      options.stores_gradients() ? std::nullopt
-                                 : find_sawtooth(parts, communicator);
+      find_sawtooth(parts, communicator);
   kernel.follow(fields);
   if (failure.keeps_crumbled())
     for (std::size_t i = 0; i < n; ++i)

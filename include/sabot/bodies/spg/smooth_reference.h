@@ -20,7 +20,8 @@ namespace sabot
  *
  * y = x - s, F and X since the last update, four times over. Before the bonds
  * change; positions of ghosts up to date. Collective. @return s [m]; nothing
- * where no particle of any rank is pressed so hard.
+ * where no particle of any rank is pressed so hard, of bodies whose bonds can
+ * fail, and of convex functions, which see it.
  */
 std::optional<AlignedVector<Vec>> find_sawtooth(const SpgParts &body,
                                                 MPI_Comm communicator);
