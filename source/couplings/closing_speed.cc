@@ -37,6 +37,16 @@ double largest_square(const Vec *const velocity, const std::size_t n,
   }
   return largest;
 }
+
+/** Across which any body has planes of symmetry, a bit each. */
+unsigned int axes_of_symmetry(const std::vector<Body *> &bodies)
+{
+  unsigned int axes = 0;
+  for (const Body *body : bodies)
+    for (const SymmetryPlane &plane : body->planes_of_symmetry())
+      axes |= 1u << plane.axis;
+  return axes;
+}
 } // namespace
 
 double ClosingSpeed::largest(const std::vector<Body *> &bodies,
@@ -50,10 +60,8 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
   // Squares of bodies, then the box around all velocities, for the next time.
   std::vector<double> top(n + 6, 0.);
   std::fill(top.begin() + n, top.end(), -1e300);
-  unsigned int mirrored = 0;
-  for (const Body *body : bodies)
-    for (const SymmetryPlane &plane : body->planes_of_symmetry())
-      mirrored |= 1u << plane.axis;
+  if (!mirrored)
+    mirrored = axes_of_symmetry(bodies);
   for (std::size_t b = 0; b < n; ++b)
     if (used[b])
     {
@@ -70,7 +78,7 @@ double ClosingSpeed::largest(const std::vector<Body *> &bodies,
   MPI_Allreduce(MPI_IN_PLACE, top.data(), top.size(), MPI_DOUBLE, MPI_MAX,
                 communicator);
   for (int d = 0; d < 3; ++d)
-    middle[d] = mirrored >> d & 1 ? 0. : 0.5 * (top[n + 3 + d] - top[n + d]);
+    middle[d] = *mirrored >> d & 1 ? 0. : 0.5 * (top[n + 3 + d] - top[n + d]);
   double speed = 0.;
   for (const auto &pair : pairs)
     speed = std::max(speed,

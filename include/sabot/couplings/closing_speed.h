@@ -4,6 +4,7 @@
 #include "sabot/base/state_visitor.h"
 #include "sabot/bodies/body.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,8 @@ public:
   }
 
 private:
-  Vec middle = {}; // [m/s]
+  Vec middle = {};                      // [m/s]
+  std::optional<unsigned int> mirrored; // axes, a bit each; found once
 };
 } // namespace sabot
 

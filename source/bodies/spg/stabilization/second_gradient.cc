@@ -245,11 +245,14 @@ void SecondGradient::gather(const SpgParts &body,
   body.exchange.take_shares(force);
 }
 
+namespace
+{
 /** Root of the sum of all squares. */
 double size_of(const Mat &b)
 {
   return std::sqrt(contract(b, b));
 }
+} // namespace
 
 void SecondGradient::add_row_sums(const SpgParts &body,
                                   std::vector<double> &sums) const
