@@ -1,7 +1,11 @@
 // Sums that do not depend on the order of their terms.
 #include "sabot/base/exact_sum.h"
 
+#include "sabot/kernels/pack.h"
+
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace sabot
@@ -28,6 +32,51 @@ void ExactSum::add_large(const double value)
   add(part);
   add(low - part);
   overflow += static_cast<std::int64_t>(high);
+}
+
+void ExactSum::add(const double *const terms, const std::size_t n)
+{
+  constexpr std::size_t most = std::size_t(n_lanes) << 11;
+  for (std::size_t begin = 0; begin < n; begin += most)
+    add_block(terms + begin, std::min(most, n - begin));
+}
+
+void ExactSum::add_block(const double *const terms, const std::size_t n)
+{
+  // Three parts of every term, each a multiple of its unit u by (x + 1.5 2^52
+  // u)
+  // - 1.5 2^52 u and below 2^42 u, so that sums of 2^11 are exact. Part and
+  // rest are exact, but for the last rest, which is what rounding leaves out.
+  constexpr double small = 1 << 14,
+                   shifter[3] = {0x1.8p24, 0x1.8p-19, 0x1.8p-60};
+  static_assert(unit_exponent == 112, "the unit of the last part");
+  Pack sums[3] = {};
+  for (std::size_t i = 0; i < n; i += n_lanes)
+  {
+    Pack x = {};
+    if (i + n_lanes <= n)
+      std::memcpy(&x, terms + i, sizeof(x));
+    else
+      for (std::size_t l = 0; l < n - i; ++l)
+        x[l] = terms[i + l];
+    const auto is_small = (x > -small) & (x < small);
+    if (!in_all_lanes(is_small))
+    {
+      for (std::size_t l = 0; l < n_lanes; ++l)
+        if (!is_small[l])
+          add_large(x[l]);
+      x = is_small ? x : Pack{};
+    }
+    for (int part = 0; part < 3; ++part)
+    {
+      const Pack of_part = (x + shifter[part]) - shifter[part];
+      sums[part] += of_part;
+      x -= of_part;
+    }
+  }
+  for (const Pack &sum_of_part : sums)
+    for (std::size_t l = 0; l < n_lanes; ++l)
+      add(sum_of_part[l]);
 }
 
 void ExactSum::add(const ExactSum &other)

@@ -67,19 +67,25 @@ BodyMeasures measure_nodes(const NodalState &nodes, MPI_Comm communicator,
   double top[6];
   std::fill(std::begin(top), std::end(top),
             std::numeric_limits<double>::lowest());
-  for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
-    if (left_out != nullptr && (*left_out)[i])
-      continue;
-    const double m = nodes.lumped_mass[i];
-    const Vec v = nodes.velocity[i], x = nodes.position[i];
-    mass.add(m);
-    kinetic.add(0.5 * m * norm_square(v));
-    for (int d = 0; d < 3; ++d)
+    ExactTerms masses(mass), energies(kinetic), x_momenta(momentum[0]),
+        y_momenta(momentum[1]), z_momenta(momentum[2]);
+    for (std::size_t i = 0; i < nodes.n_owned; ++i)
     {
-      momentum[d].add(m * v[d]);
-      top[d] = std::max(top[d], x[d]);
-      top[3 + d] = std::max(top[3 + d], -x[d]);
+      if (left_out != nullptr && (*left_out)[i])
+        continue;
+      const double m = nodes.lumped_mass[i];
+      const Vec v = nodes.velocity[i], x = nodes.position[i];
+      masses.add(m);
+      energies.add(0.5 * m * norm_square(v));
+      x_momenta.add(m * v[0]);
+      y_momenta.add(m * v[1]);
+      z_momenta.add(m * v[2]);
+      for (int d = 0; d < 3; ++d)
+      {
+        top[d] = std::max(top[d], x[d]);
+        top[3 + d] = std::max(top[3 + d], -x[d]);
+      }
     }
   }
   ExactSum::reduce({&mass, &momentum[0], &momentum[1], &momentum[2], &kinetic},

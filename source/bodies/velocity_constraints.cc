@@ -133,6 +133,7 @@ void VelocityConstraints::accumulate_work(const NodalState &nodes,
 void VelocityConstraints::add_kick_energy(const NodalState &nodes,
                                           const double dt, ExactSum &sum) const
 {
+  ExactTerms terms(sum);
   auto next = held.begin();
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
@@ -141,7 +142,7 @@ void VelocityConstraints::add_kick_energy(const NodalState &nodes,
     {
       const Vec force = nodes.kick_force(i),
                 f = is_held ? next->free * force : force;
-      sum.add(dt * dt / (8. * nodes.inertia[i]) * norm_square(f));
+      terms.add(dt * dt / (8. * nodes.inertia[i]) * norm_square(f));
     }
     next += is_held;
   }

@@ -76,6 +76,67 @@ TEST(ExactSum, does_not_depend_on_the_order)
   EXPECT_EQ(backward.value(), 0.);
 }
 
+/** Of @p values from the first to the last, in blocks of @p block. */
+double sum_by_blocks(const std::vector<double> &values, const std::size_t block)
+{
+  ExactSum sum;
+  for (std::size_t i = 0; i < values.size(); i += block)
+    sum.add(&values[i], std::min(block, values.size() - i));
+  return sum.value();
+}
+
+TEST(ExactSum, takes_terms_in_blocks_of_any_size_and_order)
+{
+  // Of all sizes that bodies have, around the bounds of parts, and too large
+  // for parts.
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  std::vector<double> values = {0.,
+                                -0.,
+                                16384.,
+                                -16384.,
+                                5e14,
+                                1e-40,
+                                std::ldexp(1., -29),
+                                std::ldexp(1., -72)};
+  for (int i = 0; i < 30000; ++i)
+    values.push_back(uniform(generator) *
+                     std::pow(2., 19. + 39. * uniform(generator)));
+  for (int i = 0; i < 30000; ++i)
+    values.push_back(uniform(generator) *
+                     std::pow(2., -40. + 40. * uniform(generator)));
+  ExactSum cut;
+  for (const double v : values)
+    cut.add(v);
+  const double sum = sum_by_blocks(values, values.size());
+  EXPECT_DOUBLE_EQ(sum, cut.value());
+  std::vector<double> none = values;
+  for (const double v : values)
+    none.push_back(-v);
+  for (const std::size_t block : {1, 3, 256, 5000, 100000})
+  {
+    std::shuffle(values.begin(), values.end(), generator);
+    std::shuffle(none.begin(), none.end(), generator);
+    EXPECT_EQ(sum_by_blocks(values, block), sum) << block;
+    EXPECT_EQ(sum_by_blocks(none, block), 0.) << block;
+  }
+  // Exactly the terms, above the unit.
+  EXPECT_EQ(sum_by_blocks(std::vector<double>(1 << 20, 16383.9), 1 << 20),
+            std::ldexp(16383.9, 20));
+  EXPECT_EQ(sum_by_blocks({std::ldexp(1.25, -110)}, 1), std::ldexp(1.25, -110));
+  values.push_back(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(std::isnan(sum_by_blocks(values, 256)));
+  EXPECT_TRUE(std::isnan(sum_by_blocks({1., 1e20}, 2)));
+  ExactSum by_terms;
+  {
+    ExactTerms terms(by_terms);
+    values.pop_back();
+    for (const double v : values)
+      terms.add(v);
+  }
+  EXPECT_EQ(by_terms.value(), sum);
+}
+
 TEST(ExactSum, keeps_invalid_terms_visible)
 {
   ExactSum sum;

@@ -57,6 +57,10 @@ public:
     const Int128 sign = static_cast<std::int64_t>(bits) >> 63;
     add((magnitude ^ sign) - sign, 0);
   }
+  /** Add @p n terms: each is what add() of it adds but rounded to the nearest
+      multiple of 2^-112 instead of cut, whatever block it comes in. Four at
+      once, in a fifth of the time. */
+  void add(const double *terms, const std::size_t n);
   /** Add another sum, without any error. */
   void add(const ExactSum &other);
   /** Take another sum off, without any error; what was not a number stays. */
@@ -70,6 +74,8 @@ public:
 
 private:
   static constexpr int unit_exponent = 112;
+  /** Of at most 2^13 terms. */
+  void add_block(const double *terms, const std::size_t n);
   /** Add a term that the low word may not hold, or an invalid one. */
   void add_large(const double value);
   void add(const Int128 low, const std::int64_t high)
@@ -82,6 +88,34 @@ private:
   Int128 sum = 0;             // in units of 2^-112
   std::int64_t overflow = 0;  // in units of 2^16, as often as the sum wrapped
   std::int64_t n_invalid = 0; // terms that were not added
+};
+
+/**
+ * Many terms of one sum, handed on by the block: for loops over all nodes or
+ * cells of a body. The sum has them all only when this has gone.
+ */
+class ExactTerms
+{
+public:
+  explicit ExactTerms(ExactSum &sum) : sum(sum) {}
+  ExactTerms(const ExactTerms &) = delete;
+  ExactTerms &operator=(const ExactTerms &) = delete;
+  ~ExactTerms() { sum.add(terms, n); }
+  void add(const double term)
+  {
+    terms[n++] = term;
+    if (n == block)
+    {
+      sum.add(terms, n);
+      n = 0;
+    }
+  }
+
+private:
+  static constexpr std::size_t block = 256;
+  ExactSum &sum;
+  std::size_t n = 0;
+  double terms[block];
 };
 } // namespace sabot
 

@@ -58,6 +58,17 @@ inline Pack pack_min(const Pack a, const Pack b)
   return a < b ? a : b;
 }
 
+/** Whether a comparison of packs holds in every lane. */
+template <typename Comparison>
+inline bool in_all_lanes(const Comparison holds)
+{
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<Pack>(holds)) == 15;
+#else
+  return (holds[0] & holds[1] & holds[2] & holds[3]) != 0;
+#endif
+}
+
 /**
  * Square root of each lane, correctly rounded.
  * IEEE 754 demands this of the instruction and of std::sqrt alike, so that both

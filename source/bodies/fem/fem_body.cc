@@ -196,21 +196,26 @@ StableStep FemBody::stable_step() const
 void FemBody::add_energies(EnergyLedger &ledger) const
 {
   const std::vector<char> *const is_free = free_nodes();
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
-    (is_free != nullptr && (*is_free)[i] ? ledger.eroded : ledger.kinetic)
-        .add(0.5 * nodal_state.inertia[i] *
-             norm_square(nodal_state.velocity[i]));
+  {
+    ExactTerms kinetic(ledger.kinetic), eroded(ledger.eroded);
+    for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+      (is_free != nullptr && (*is_free)[i] ? eroded : kinetic)
+          .add(0.5 * nodal_state.inertia[i] *
+               norm_square(nodal_state.velocity[i]));
+  }
   ledger.external.add(constraints.work());
   conversion.add_energies(ledger);
   add_scaling(ledger);
   if (erosion)
     erosion->add_energies(ledger);
+  ExactTerms internal(ledger.internal), hourglass(ledger.hourglass),
+      plastic_work(ledger.plastic_work);
   for (std::size_t e = 0; e < cells->size(); ++e)
     if (owned_cell[e])
     {
-      ledger.internal.add(cells->internal_energy(e));
-      ledger.hourglass.add(cells->hourglass_energy[e]);
-      ledger.plastic_work.add(cells->plastic_work(e));
+      internal.add(cells->internal_energy(e));
+      hourglass.add(cells->hourglass_energy[e]);
+      plastic_work.add(cells->plastic_work(e));
     }
 }
 

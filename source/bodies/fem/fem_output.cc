@@ -32,12 +32,15 @@ BodyMeasures FemBody::measure() const
   double top[2] = {
       largest_state(*cells, owned_cell, "effective plastic strain"),
       largest_state(*cells, owned_cell, "temperature")};
-  for (std::size_t e = 0; e < cells->size(); ++e)
-    if (owned_cell[e])
-    {
-      internal.add(cells->internal_energy(e));
-      hourglass.add(cells->hourglass_energy[e]);
-    }
+  {
+    ExactTerms of_cells(internal), of_control(hourglass);
+    for (std::size_t e = 0; e < cells->size(); ++e)
+      if (owned_cell[e])
+      {
+        of_cells.add(cells->internal_energy(e));
+        of_control.add(cells->hourglass_energy[e]);
+      }
+  }
   ExactSum::reduce({&internal, &hourglass}, communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   BodyMeasures measures =

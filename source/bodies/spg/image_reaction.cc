@@ -20,11 +20,14 @@ Resultant ImageReaction::resultant(const int body,
 {
   ExactSum force[3], total[3];
   for (int d = 0; d < 3; ++d)
+  {
+    ExactTerms forces(force[d]), impulses(total[d]);
     for (std::size_t i = 0; i < impulse.size() && axes >> d & 1; ++i)
     {
-      force[d].add(own[i][d]);
-      total[d].add(impulse[i][d] + waiting * own[i][d]);
+      forces.add(own[i][d]);
+      impulses.add(impulse[i][d] + waiting * own[i][d]);
     }
+  }
   ExactSum::reduce(
       {&force[0], &force[1], &force[2], &total[0], &total[1], &total[2]},
       communicator);

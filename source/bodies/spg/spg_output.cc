@@ -12,18 +12,20 @@ namespace sabot
 {
 void SpgBody::add_energies(EnergyLedger &ledger) const
 {
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  const std::size_t n = nodal_state.n_owned;
   {
-    ledger.kinetic.add(0.5 * nodal_state.inertia[i] *
-                       norm_square(nodal_state.velocity[i]));
-    ledger.internal.add(points.internal_energy[i]);
-    ledger.stabilization.add(stabilization->work()[i]);
-    ledger.plastic_work.add(points.plastic_work[i]);
-    ledger.failure.add(failure.loss[i]);
+    ExactTerms kinetic(ledger.kinetic);
+    for (std::size_t i = 0; i < n; ++i)
+      kinetic.add(0.5 * nodal_state.inertia[i] *
+                  norm_square(nodal_state.velocity[i]));
   }
+  ledger.internal.add(points.internal_energy.data(), n);
+  ledger.stabilization.add(stabilization->work().data(), n);
+  ledger.plastic_work.add(points.plastic_work.data(), n);
+  ledger.failure.add(failure.loss.data(), n);
   add_scaling(ledger);
-  for (const double work : failure.friction_work)
-    ledger.rubble_friction.add(work);
+  ledger.rubble_friction.add(failure.friction_work.data(),
+                             failure.friction_work.size());
 }
 
 BodyMeasures SpgBody::measure() const
@@ -34,19 +36,26 @@ BodyMeasures SpgBody::measure() const
       n_isolated, fallbacks;
   fallbacks.add(approximation.n_fallbacks());
   double top[2] = {0., 0.};
-  for (std::size_t i = 0; i < nodal_state.n_owned; ++i)
+  const std::size_t n = nodal_state.n_owned;
+  internal.add(points.internal_energy.data(), n);
+  stabilized.add(stabilization->work().data(), n);
+  plastic.add(points.plastic_work.data(), n);
+  lost.add(failure.loss.data(), n);
+  // Of numbers up to 2^53 any sum is exact.
+  std::size_t failed = 0, all = 0, weak = 0, isolated = 0;
+  for (std::size_t i = 0; i < n; ++i)
   {
-    internal.add(points.internal_energy[i]);
-    stabilized.add(stabilization->work()[i]);
-    plastic.add(points.plastic_work[i]);
-    lost.add(failure.loss[i]);
-    bonds_failed.add(failure.n_failed[i]);
-    bonds_all.add(failure.n_holding(bonds, i) + failure.n_failed[i]);
-    n_weak.add(approximation.lost_direction[i]);
-    n_isolated.add(bonds.n_bonds(i) == 0);
+    failed += failure.n_failed[i];
+    all += failure.n_holding(bonds, i) + failure.n_failed[i];
+    weak += approximation.lost_direction[i] != 0;
+    isolated += bonds.n_bonds(i) == 0;
     top[0] = std::max(top[0], eps ? eps[i] : 0.);
     top[1] = std::max(top[1], temperature ? temperature[i] : 0.);
   }
+  bonds_failed.add(failed);
+  bonds_all.add(all);
+  n_weak.add(weak);
+  n_isolated.add(isolated);
   ExactSum::reduce({&internal, &stabilized, &plastic, &lost, &bonds_failed,
                     &bonds_all, &n_weak, &n_isolated, &fallbacks},
                    communicator);
@@ -60,8 +69,9 @@ BodyMeasures SpgBody::measure() const
   if (options.can_fail())
     measures.own.push_back({"failure energy", "J", lost.value()});
   measures.own.push_back({"plastic strain max", "1", top[0]});
-  const double n = bonds_all.value();
-  measures.bonds_broken_fraction = n > 0. ? bonds_failed.value() / n : 0.;
+  const double n_bonds = bonds_all.value();
+  measures.bonds_broken_fraction =
+      n_bonds > 0. ? bonds_failed.value() / n_bonds : 0.;
   measures.own.push_back(
       {"bonds broken fraction", "1", measures.bonds_broken_fraction});
   measures.own.push_back({"bonds broken", "1", 0.5 * bonds_failed.value()});
