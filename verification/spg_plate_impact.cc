@@ -119,10 +119,9 @@ void add_spall(std::vector<Check> &checks)
   for (Slab *const s : {&slab, &reference})
     s->advance_to(2e-6);
   const std::string which = "al6061-t6 at 2 x 500 m/s, torn at 1 GPa: ";
-  checks.push_back({which + "bonds broken", 1.,
-                    measure(*slab.body, "bonds broken"), 0., "1",
-                    "the relief of 8 GPa is tension beyond",
-                    Check::Kind::at_least});
+  checks.push_back(
+      {which + "bonds broken", 1., measure(*slab.body, "bonds broken"), 0., "1",
+       "the relief of 8 GPa is tension beyond", Check::Kind::at_least});
   checks.push_back({which + "stabilization over internal energy",
                     reference.sawtooth(), slab.sawtooth(), 0.02, "1",
                     "where no kernel follows", Check::Kind::at_most});
