@@ -25,10 +25,11 @@ double stiffness_share(const SpgParts &body, const std::size_t i)
 {
   // Of what a step may take from a volume beyond the largest compression.
   constexpr double margin = 1.13, closing_speed = 0.1; // over the wave speed
+  if (!gapes(body, i))
+    return 1.;
   const double V = body.fields.kernel_reference_volume[i],
                V_0 = body.fields.reference_volume[i];
-  if (!(V > margin * body.kernel.largest_compression() * V_0) ||
-      !gapes(body, i))
+  if (!(V > margin * body.kernel.largest_compression() * V_0))
     return 1.;
   return std::min(1.,
                   4. *

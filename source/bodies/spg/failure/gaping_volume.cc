@@ -5,6 +5,7 @@
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/failure/residual_strength.h"
 #include "sabot/bodies/spg/particle_fields.h"
+#include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/spg/spg_parts.h"
 
 #include <cmath>
@@ -24,6 +25,8 @@ bool gapes(const SpgParts &body, const std::size_t i)
 
 void bound_gaping_volumes(SpgParts &body)
 {
+  if (!body.options.can_fail() || !body.residual_strength.bears_no_tension())
+    return;
   constexpr double ball = 4.1887902047863905; // 4 pi/3
   const double most = ball * std::pow(body.kernel.support(), 3);
   ParticleFields &fields = body.fields;
