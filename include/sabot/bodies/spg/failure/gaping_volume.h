@@ -20,10 +20,10 @@ bool gapes(const SpgParts &body, const std::size_t i);
  *
  * what a particle has for itself that is alone in its kernel. V is a product of
  * J_inc over all updates, each by neighbors of its own, and where nothing bears
- * it nothing holds it: it would drift to any size, and the work of closing, by
- * V/V_0 of the start's volume, would be more than an equation of state can
- * follow in a step. F_ref loses the same, equally in all directions. No energy:
- * there is no stress. Owned particles; local.
+ * it nothing holds it: it would drift to any size, and the work of a step,
+ * which goes by V/V_0, would be more than an equation of state can follow.
+ * F_ref loses the same, equally in all directions. No energy: there is no
+ * stress. Owned particles; local.
  */
 void bound_gaping_volumes(SpgParts &body);
 } // namespace sabot
