@@ -1,6 +1,7 @@
 // What a kernel update finds anew: rows, neighbors of crumbled metal, steps.
 #include "sabot/base/choice.h"
 #include "sabot/bodies/spg/bond_rows.h"
+#include "sabot/bodies/spg/failure/gaping_volume.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/spg/stiffness_bound.h"
@@ -227,6 +228,86 @@ TEST(KernelUpdate, metal_that_gapes_bears_nothing_but_viscosity)
   for (std::size_t i = 0; i < n.n_owned; ++i)
     for (unsigned int c = 0; c < 6 && gapes[i]; ++c)
       ASSERT_EQ(body.stress(c, i), 0.) << i;
+}
+
+TEST(KernelUpdate, metal_that_gapes_has_no_more_than_a_kernel_for_itself)
+{
+  CrumbledBlock block(0.5, 3);
+  SpgBody &body = *block.body;
+  const SpgParts &rooms = body.rooms();
+  ParticleFields &fields = rooms.fields;
+  NodalState &n = body.nodes();
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    // Where bodies come to that have gaped for long.
+    fields.kernel_reference_volume[i] *= 1e3;
+    fields.kernel_reference_deformation_gradient[i] =
+        10. * fields.kernel_reference_deformation_gradient[i];
+    n.position[i] = 1.15 * n.position[i];
+  }
+  body.update_ghosts();
+  body.compute_forces(0., 1e-9);
+  std::vector<char> gaped(n.n_owned);
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+    gaped[i] = gapes(rooms, i);
+  ASSERT_TRUE(body.update_topology(60, 0.));
+  const double most = 4. / 3. * M_PI * std::pow(rooms.kernel.support(), 3);
+  std::size_t n_bound = 0, n_sound = 0;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    const double J =
+        fields.kernel_reference_volume[i] / fields.reference_volume[i];
+    EXPECT_NEAR(determinant(fields.deformation_gradient(i)) / J, 1., 1e-9);
+    if (gaped[i])
+      n_bound += J <= most * (1. + 1e-12);
+    else
+      n_sound += J > 900.;
+  }
+  EXPECT_GT(n_bound, n.n_owned / 10);
+  EXPECT_GT(n_sound, n.n_owned / 10);
+  EXPECT_EQ(n_bound + n_sound, n.n_owned);
+}
+
+TEST(KernelUpdate, kernels_follow_the_motion_where_places_are_smoothed)
+{
+  for (const bool can_fail : {false, true})
+  {
+    World world;
+    SpgOptions options;
+    if (can_fail)
+      options.set_critical_plastic_strain(0.45);
+    world.bodies.push_back(std::make_unique<SpgBody>(
+        "block", 0, make_box_cloud({}, {{6e-3, 5e-3, 5e-3}}, 1e-3),
+        hardening_aluminum(), options));
+    world.distribute();
+    SpgBody &body = static_cast<SpgBody &>(*world.bodies[0]);
+    const ParticleFields &fields = body.rooms().fields;
+    const LagrangianKernel &kernel = body.rooms().kernel;
+    NodalState &n = body.nodes();
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-2e-5, 2e-5);
+    double smoothed = 0.;
+    for (const double size : {0.96, 0.95, 0.96})
+    {
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+        n.position[i] = size * n.reference_position[i] +
+                        vec(number(random), number(random), number(random));
+      body.update_ghosts();
+      body.compute_forces(0., 1e-9);
+      ASSERT_TRUE(body.update_topology(30, 0.));
+      for (std::size_t i = 0; i < n.n_owned; ++i)
+      {
+        const Mat F = fields.incremental_deformation_gradient[i],
+                  now = F * fields.kernel[i],
+                  expected = kernel.support() * kernel.mean_spacing() *
+                             fields.deformation_gradient(i);
+        for (int d = 0; d < 3; ++d)
+          EXPECT_LT(norm(now.row[d] - expected.row[d]), 1e-15);
+        smoothed = std::max(smoothed, std::abs(determinant(F) - 1.));
+      }
+    }
+    EXPECT_GT(smoothed, 1e-3);
+  }
 }
 
 TEST(KernelUpdate, a_crack_that_holds_the_least_bound_asks_for_no_calibration)

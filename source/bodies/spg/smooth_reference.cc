@@ -88,7 +88,7 @@ Vec off_the_middle(const SpgParts &body, const AlignedVector<Vec> &x,
 std::optional<AlignedVector<Vec>> find_sawtooth(const SpgParts &body,
                                                 MPI_Comm communicator)
 {
-  if (body.options.stores_gradients() || body.options.can_fail())
+  if (body.options.stores_gradients())
     return std::nullopt;
   const std::vector<double> part = parts_to_take(body);
   int any = std::any_of(part.begin(), part.end(),
@@ -134,10 +134,14 @@ void settle_gradients(SpgParts &body)
     }
     const Mat F =
         Mat::identity() + change * body.approximation.moment_inverse[i];
+    const Mat back = inverse(F);
     fields.incremental_deformation_gradient[i] = F;
     fields.kernel_reference_deformation_gradient[i] =
-        inverse(F) * fields.kernel_reference_deformation_gradient[i];
+        back * fields.kernel_reference_deformation_gradient[i];
     fields.kernel_reference_volume[i] /= determinant(F);
+    // F takes it along at the next update: F H stays what it is.
+    fields.kernel[i] = back * fields.kernel[i];
   }
+  body.exchange.update(fields.kernel.data());
 }
 } // namespace sabot

@@ -4,6 +4,7 @@
 
 #include "sabot/bodies/spg/crack_update.h"
 #include "sabot/bodies/spg/failure/crumbled_neighbors.h"
+#include "sabot/bodies/spg/failure/gaping_volume.h"
 #include "sabot/bodies/spg/failure/release_stress.h"
 #include "sabot/bodies/spg/image_rows.h"
 #include "sabot/bodies/spg/neighbor_search.h"
@@ -327,6 +328,7 @@ void SpgBody::update_kernel(const unsigned int step, const bool only_cracks)
   const std::optional<AlignedVector<Vec>> sawtooth =
       find_sawtooth(parts, communicator);
   kernel.follow(fields);
+  bound_gaping_volumes(parts);
   if (failure.keeps_crumbled())
     for (std::size_t i = 0; i < n; ++i)
       if (failure.has_crumbled(i))

@@ -9,7 +9,7 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/bond_list.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
-#include "sabot/bodies/spg/failure/residual_strength.h"
+#include "sabot/bodies/spg/failure/gaping_volume.h"
 #include "sabot/bodies/spg/particle_fields.h"
 #include "sabot/bodies/spg/spg_options.h"
 #include "sabot/bodies/spg/spg_parts.h"
@@ -25,16 +25,12 @@ double stiffness_share(const SpgParts &body, const std::size_t i)
 {
   // Of what a step may take from a volume beyond the largest compression.
   constexpr double margin = 1.13, closing_speed = 0.1; // over the wave speed
-  if (!body.failure.is_failed[i] || !body.residual_strength.bears_no_tension())
+  if (!gapes(body, i))
     return 1.;
   const double V = body.fields.kernel_reference_volume[i],
                V_0 = body.fields.reference_volume[i];
   if (!(V > margin * body.kernel.largest_compression() * V_0))
     return 1.;
-  const Mat stress = body.points.total_stress(i, 0.);
-  for (const Vec row : stress.row)
-    if (row[0] != 0. || row[1] != 0. || row[2] != 0.)
-      return 1.;
   return std::min(1.,
                   4. *
                       (body.options.bulk_viscosity_linear +

@@ -20,16 +20,16 @@ namespace sabot
  *
  * y = x - s, F and X since the last update, four times over. Before the bonds
  * change; positions of ghosts up to date. Collective. @return s [m]; nothing
- * where no particle of any rank is pressed so hard, of bodies whose bonds can
- * fail, and of convex functions, which see it.
+ * where no particle of any rank is pressed so hard, and of convex functions,
+ * which see it.
  */
 std::optional<AlignedVector<Vec>> find_sawtooth(const SpgParts &body,
                                                 MPI_Comm communicator);
 
 /**
  * F_inc of owned particles after an update at places X that are not x, by its
- * functions: what they see of x - X. The total F and the volume stay. Least
- * squares only. Local.
+ * functions: what they see of x - X. The total F, the volume and the kernel of
+ * now, F_inc H, stay. Least squares only. Collective, for kernels of ghosts.
  */
 void settle_gradients(SpgParts &body);
 } // namespace sabot
