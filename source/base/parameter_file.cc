@@ -94,21 +94,28 @@ void check_encoding(const std::string &origin, const std::string &text)
     fail(origin, "", byte + "; save the file as UTF-8");
 }
 
-/** The lines of @p file that say something. */
-std::vector<Line> read_lines(const std::string &file,
-                             const std::string &included_at)
+/** Whether all entries are written out, as print_expanded() does. */
+bool is_listing(const std::string &content)
 {
-  std::stringstream content(read_text(file, included_at));
+  const std::size_t title = content.find("# Listing of Parameters\n");
+  return title != std::string::npos && title < content.find("\nset ");
+}
+
+/** The lines of @p file, with this @p content, that say something. */
+std::vector<Line> read_lines(const std::string &file,
+                             const std::string &content)
+{
+  std::stringstream stream(content);
   std::vector<Line> lines;
   std::string line;
-  for (unsigned int n = 1; std::getline(content, line); ++n)
+  for (unsigned int n = 1; std::getline(stream, line); ++n)
   {
     const unsigned int first = n;
     std::string text = trim(line.substr(0, line.find('#')));
     while (!text.empty() && text.back() == '\\')
     {
       text.pop_back();
-      if (!std::getline(content, line))
+      if (!std::getline(stream, line))
         break;
       ++n;
       text = trim(text + trim(line.substr(0, line.find('#'))));
@@ -183,7 +190,10 @@ void ParameterFile::read(const std::string &file,
   // What several files of a family include says the same each time.
   if (!included.insert({path_of(section), known_as}).second)
     return;
-  const std::vector<Line> lines = read_lines(file, included_at);
+  const std::string content = read_text(file, included_at);
+  if (is_listing(content))
+    listings.insert(file);
+  const std::vector<Line> lines = read_lines(file, content);
   open_files.push_back(known_as);
   const std::size_t depth = section.size();
   std::vector<std::string> opened; // origin of each open subsection
@@ -285,6 +295,13 @@ ParameterFile::subsections(const std::string &path) const
 bool ParameterFile::is_set(const std::string &path) const
 {
   return number.count(path) > 0;
+}
+
+bool ParameterFile::is_chosen(const std::string &path) const
+{
+  const auto found = number.find(path);
+  return found != number.end() &&
+         listings.count(entries[found->second].file) == 0;
 }
 
 std::string ParameterFile::value(const std::string &path,

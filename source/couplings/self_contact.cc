@@ -230,7 +230,8 @@ void SelfContact::add_forces(const double dt)
   forces.clear();
   if (!is_step(dt))
     return;
-  soften(dt);
+  soften(std::max(dt, kept_step));
+  kept_step = 0.;
   points.clear();
   for (const std::size_t number : touching)
   {

@@ -91,6 +91,12 @@ void CentralDifference::accumulate_work(const double half_dt)
     coupling->accumulate_work(half_dt);
 }
 
+void CentralDifference::keep_stiffness(const double last_step)
+{
+  for (auto &coupling : couplings)
+    coupling->keep_stiffness(last_step);
+}
+
 void CentralDifference::advance(const double dt,
                                 const std::vector<unsigned int> &counts)
 {

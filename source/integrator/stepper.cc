@@ -35,6 +35,8 @@ double Stepper::mean_substeps(const Body &body) const
 void Stepper::advance(const double step,
                       const std::vector<unsigned int> &counts)
 {
+  if (n_steps > 0 && step < dt && reaches_end(step))
+    integrator.keep_stiffness(dt);
   dt = step;
   integrator.advance(step, counts);
   ++n_steps;

@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <limits>
@@ -172,14 +173,39 @@ void VtuWriter::write_body(const std::string &body, const OutputMesh &mesh,
             throw IOError("cannot write \"" + file + "\": " + reason);
           }
         });
-    if (n_ranks > 1 && rank == 0)
-      write_collection(body, mesh, frame);
+    if (rank == 0)
+    {
+      if (n_ranks > 1)
+        write_collection(body, mesh, frame);
+      remove_other_pieces(body, frame);
+    }
   }
   catch (const IOError &e)
   {
     problem = e.what();
   }
   agree(problem);
+}
+
+void VtuWriter::remove_other_pieces(const std::string &body,
+                                    const unsigned int frame) const
+{
+  const std::string start = folder + "/fields/" + body_file(body, frame);
+  remove_file(start + (n_ranks > 1 ? ".vtu" : ".pvtu"));
+  const auto piece = [&](const int i)
+  { return start + "_" + std::to_string(i) + ".vtu"; };
+  for (int i = n_ranks > 1 ? n_ranks : 0; std::filesystem::exists(piece(i));
+       ++i)
+    remove_file(piece(i));
+}
+
+std::string VtuWriter::frame_file(const std::string &body,
+                                  const unsigned int frame) const
+{
+  const std::string start = "fields/" + body_file(body, frame);
+  return start + (std::filesystem::exists(folder + "/" + start + ".pvtu")
+                      ? ".pvtu"
+                      : ".vtu");
 }
 
 void VtuWriter::write_collection(const std::string &body,
@@ -234,9 +260,8 @@ void VtuWriter::add_time(const double time, const unsigned int frame,
     for (const auto &[t, f] : frames)
       for (std::size_t b = 0; b < bodies.size(); ++b)
         xml << "<DataSet timestep=\"" << t << "\" group=\"\" part=\"" << b
-            << "\" name=\"" << escaped(bodies[b]) << "\" file=\"fields/"
-            << escaped(body_file(bodies[b], f))
-            << (n_ranks > 1 ? ".pvtu" : ".vtu") << "\"/>\n";
+            << "\" name=\"" << escaped(bodies[b]) << "\" file=\""
+            << escaped(frame_file(bodies[b], f)) << "\"/>\n";
     xml << "</Collection>\n</VTKFile>\n";
     try
     {

@@ -127,11 +127,24 @@ Carving BodyAssembly::read_carving(const std::string &name,
   carving.shape = *zone;
   carving.finds_itself =
       discretization_of(name)->conversion(prm, path).has_value();
-  carving.has_start = !carving.finds_itself || file.is_set(path + "/Size") ||
-                      file.is_set(path + "/Radius");
+  carving.has_start = !carving.finds_itself || has_start_zone(name);
   carving.follows_mesh = carving.finds_itself || !shape->has_lattice() ||
                          !shape_of(from)->has_lattice();
   return carving;
+}
+
+bool BodyAssembly::has_start_zone(const std::string &name) const
+{
+  const std::string path = "Bodies/" + name;
+  const EnteredSubsection entered(prm, "Bodies", name);
+  if (prm.get("Start zone") == "by entries")
+  {
+    const bool is_given =
+        file.is_set(path + "/Size") || file.is_set(path + "/Radius");
+    // The expanded parameters set all entries.
+    prm.set("Start zone", is_given ? "yes" : "no");
+  }
+  return prm.get("Start zone") == "yes";
 }
 
 void BodyAssembly::carve_meshes()

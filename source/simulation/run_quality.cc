@@ -106,7 +106,11 @@ void describe_quality(const Scene &scene, const ControlShares &shares,
       log.warning(
           share + ", more than " + percent(ControlShares::most) +
           ": the answer depends on it; use finer " + body->item_name() +
-          (control == "hourglass" ? instead_of_control(body->facts()) : ""));
+          (control == "hourglass"
+               ? instead_of_control(body->facts())
+               // Decision 60.
+               : ", or, against the sawtooth that strong shocks leave "
+                 "whatever the spacing, \"Normalized support size = 2.5\""));
   }
   for (const auto &body : scene.bodies)
     if (const MassScaling *const scaling = body->mass_scaling())

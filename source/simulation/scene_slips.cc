@@ -47,7 +47,7 @@ public:
         file.is_set(start + "Yaw pitch roll"))
       return;
     for (const std::string entry : {"Rotation axis", "Rotation center"})
-      if (file.is_set(start + entry))
+      if (file.is_chosen(start + entry))
         say(start + entry, "has no effect without \"Rotation angle\"");
   }
 
@@ -89,13 +89,14 @@ public:
   {
     const bool is_refined =
         number(start + "Refined zone size").value_or(0.) > 0.;
-    if (!is_refined && file.is_set(start + "Refined zone center"))
+    if (!is_refined && file.is_chosen(start + "Refined zone center"))
       say(start + "Refined zone center",
           "has no effect without \"Refined zone size\"");
     if (is_refined || is_meshed_around_zone(body))
       return;
     for (const std::string entry : {"Coarsest cell size", "Growth ratio"})
-      if (file.value(start + entry, "none") != "none")
+      if (file.is_chosen(start + entry) &&
+          file.value(start + entry, "none") != "none")
         return say(start + entry,
                    "has no effect: cells grow away from the fine part of a "
                    "box, and this has none; give a \"Refined zone size\", or "
@@ -160,7 +161,7 @@ public:
     {
       for (const std::string &path :
            {velocity, start + "Prescribed components"})
-        if (file.is_set(path))
+        if (file.is_chosen(path))
           say(path, "has no effect without \"Driven faces\"");
     }
     else if (!file.is_set(velocity))
@@ -209,8 +210,10 @@ std::vector<std::string> slips_of_entries(const ParameterFile &file,
     slips.look_at_nose(body->name);
     slips.look_at_grading(body->name);
     if (body->facts().deforms)
+    {
       slips.look_at_sector(body->name);
-    slips.look_at_size(body->name, outlines[body->id]);
+      slips.look_at_size(body->name, outlines[body->id]);
+    }
     slips.look_at_drive(body->name);
     slips.look_at_planes(*body);
   }

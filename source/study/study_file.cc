@@ -169,6 +169,19 @@ void check_ballistic(const std::string &path, const std::string &name,
     }
   throw InputError(path, "the study has no parameter \"" + name + "\"");
 }
+
+/** What a study that looks at nothing can look at. */
+std::string quantities_to_name(const std::string &scene)
+{
+  const std::string listed =
+      trim(ParameterFile(scene, {}).value("List of quantities", ""));
+  return listed.empty()
+             ? "it has no \"List of quantities\" yet: name some there, and "
+               "each again as a subsection of \"Quantities\" in the study"
+             : "name each that you want as a subsection of \"Quantities\", "
+               "which may be empty; it has " +
+                   listed;
+}
 } // namespace
 
 void StudyFile::declare(Parameters &prm,
@@ -268,8 +281,9 @@ void StudyFile::read(const ParameterFile &file)
     prm.leave_subsection();
   }
   if (quantity_names.empty())
-    throw InputError("Quantities",
-                     "the study looks at no quantity of the scene");
+    throw InputError("Quantities", "the study looks at no quantity of the "
+                                   "scene; " +
+                                       quantities_to_name(scene));
   for (const std::string &name : quantity_names)
   {
     prm.enter_subsection("Quantities");

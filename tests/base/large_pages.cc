@@ -36,6 +36,9 @@ TEST(LargePages, hold_arrays_of_all_sizes)
 {
   if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"))
     GTEST_SKIP() << "this kernel has no large pages";
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer has a heap of its own";
+#endif
   // On the heap and, from 32 MB on, beyond it.
   for (const std::size_t n : {100000u, 400000u, 1600000u, 10000000u})
   {

@@ -72,6 +72,50 @@ class Answers(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("Checkpoint at the end", done.stdout)
 
+    def test_the_expanded_parameters_are_the_same_scene(self):
+        # That a zone has no particles at the start shows by what is not set.
+        for scene in (BAR, os.path.join(SOURCE, "tests/scenes/found.prm"),
+                      os.path.join(SOURCE, "tests/scenes/driven-bar.prm")):
+            with self.subTest(scene):
+                out, again = folder("scene"), folder("expanded")
+                self.run_scene(scene, out, "End time=3 us")
+                self.run_scene(os.path.join(out, "parameters.prm"), again)
+                self.assertEqual(read(again, "history.h5"),
+                                 read(out, "history.h5"))
+                self.assertEqual(result(again)["warnings"],
+                                 result(out)["warnings"])
+                done = sabot("resume", again, "--set", "End time=4 us")
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.assertNotIn("warning", done.stdout)
+
+    def test_what_rests_is_not_struck_by_the_cut_last_step(self):
+        # The stiffness of contact goes by the step, which the end cuts.
+        scene = os.path.join(SOURCE, "tests/scenes/resting.prm")
+        for end in ("40.005 us", "40.05 us", "40.09 us"):
+            out = folder("resting")
+            self.run_scene(scene, out, "End time=" + end)
+            weight = 7830. * 18e-9 * 20e3  # [N]
+            force = result(out)["quantities"]["force"]["value"]
+            self.assertLess(abs(force / weight - 1.), 0.1, end)
+
+    def test_gauges_on_cells_of_several_ranks(self):
+        # Velocities of nodes of other ranks are those after the last kick.
+        scene = os.path.join(SOURCE, "tests/scenes/driven-bar.prm")
+        gauges = ["g%d" % i for i in range(10)]
+        settings = ["List of outputs=averages, middle, " + ", ".join(gauges)]
+        for i, name in enumerate(gauges):
+            settings += ["Outputs/%s/%s" % (name, entry) for entry in (
+                "Type=gauge", "Body=bar", "Interval=0.3 us",
+                "Point=%g mm, 0.75 mm, 1.25 mm" % (0.25 + 0.5 * i))]
+        histories = []
+        for ranks in (1, 3):
+            out = folder("gauges%d" % ranks)
+            self.run_scene(scene, out, "Bodies/bar/Size=6 mm, 2 mm, 2 mm",
+                           "Bodies/bar/Center=3 mm, 1 mm, 1 mm", *settings,
+                           ranks=ranks)
+            histories.append(read(out, "history.h5"))
+        self.assertEqual(histories[0], histories[1])
+
     def test_results_are_not_overwritten_unless_told(self):
         out = folder("kept")
         self.run_scene(BAR, out, "Outputs/fields/Interval=1 us")

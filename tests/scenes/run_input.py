@@ -343,6 +343,8 @@ class Input(unittest.TestCase):
         self.assertWarns(scene({"plate": dict(plate,
                                               Size="20 mm, 20 mm, 0.1 mm")}),
                          "more than the body is across")
+        self.assertWarns(scene({"plate": dict(
+            plate, Size="20 mm, 20 mm, 0.1 mm", Discretization="rigid")}))
 
     def test_values_of_materials_with_a_lost_unit(self):
         cook = {"Model": "Johnson-Cook", "Density": "7830 kg/m^3",

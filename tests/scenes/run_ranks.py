@@ -7,6 +7,7 @@ goes on with other numbers of ranks and has to end with the same bytes.
 """
 import json
 import os
+import re
 import shutil
 import sys
 import unittest
@@ -98,6 +99,21 @@ class Ranks(unittest.TestCase):
             self.assertEqual(read(out, "history.h5"), history,
                              "%s: from %d to %d ranks" % (name, n, m))
             self.assertEqual(answers(out), its)
+            self.check_frames(out)
+
+    def check_frames(self, out):
+        """The frames of both numbers of ranks are there, and nothing else."""
+        if not os.path.exists(os.path.join(out, "sabot.pvd")):
+            return
+        frames = re.findall(r'file="([^"]+)"', read(out, "sabot.pvd").decode())
+        pieces = [os.path.join("fields", piece)
+                  for frame in frames if frame.endswith(".pvtu")
+                  for piece in re.findall(r'Source="([^"]+)"',
+                                          read(out, frame).decode())]
+        self.assertEqual(
+            sorted(frames + pieces),
+            sorted(os.path.join("fields", name)
+                   for name in os.listdir(os.path.join(out, "fields"))))
 
     def test_checkpoints_go_on_with_any_number_of_ranks(self):
         for scene in SCENES:

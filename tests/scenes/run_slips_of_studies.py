@@ -75,6 +75,12 @@ class SlipsOfStudies(unittest.TestCase):
             self.assertIn(part, done.stdout)
             self.assertNotIn("--set", done.stdout)
             self.assertEqual(len(done.stdout.splitlines()), 1, done.stdout)
+        # Which quantities there are.
+        path = write("study.prm", (STUDY % ("varied.prm", "", size, "2 mm"))
+                     .replace("  subsection speed\n  end\n", ""))
+        done = sabot("study", path, "--list")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("it has speed", done.stdout)
         # What only the run itself finds out.
         path = write("study.prm", STUDY % (
             "varied.prm", "", "Bodies/plate/Clamped faces", "-w"))

@@ -63,6 +63,9 @@ public:
   /** Whether a file or an override sets the entry @p path
       ("Bodies/plate/Size"); defaults do not count. */
   bool is_set(const std::string &path) const;
+  /** The same by somebody who might have left it alone: not by a file that
+      writes all entries out, as parameters.prm of a run does. */
+  bool is_chosen(const std::string &path) const;
   /** Text of an entry, or @p standard where it is not set. */
   std::string value(const std::string &path, const std::string &standard) const;
   /** "scene.prm:12" of an entry or subsection, "" where it is not set; for a
@@ -110,8 +113,9 @@ private:
   std::map<std::string, std::size_t> number; // path -> entries
   std::vector<std::pair<std::string, std::string>> sections; // path, origin
   std::set<std::pair<std::string, std::string>> included;    // section, file
-  std::set<std::string> renamed; // old names that were met
-  std::vector<std::string> said; // about them
+  std::set<std::string> listings; // files that write all entries out
+  std::set<std::string> renamed;  // old names that were met
+  std::vector<std::string> said;  // about them
 };
 
 /** The declared entries as tables in Markdown, one for each subsection: name,

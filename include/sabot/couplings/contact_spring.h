@@ -46,7 +46,8 @@ struct SpringOptions
  * more than a thousandth each time while it is within half of the present one:
  * steps of particles go up and down by a percent, and stiffnesses that followed
  * them would shake what rests. Steps that fall by more, as before rigid bodies
- * meet, are followed: a bound far behind would leave no stiffness.
+ * meet, are followed: a bound far behind would leave no stiffness. Not so the
+ * last step of a run, which is cut to meet its end (keep()).
  */
 class SteadyStep
 {
@@ -54,10 +55,16 @@ public:
   /** @return the bound's step after one of @p dt [s]. */
   double follow(const double dt)
   {
-    value = std::max(dt, std::min(0.999 * value, 1.5 * dt));
+    value = std::max(dt, is_kept ? value : std::min(0.999 * value, 1.5 * dt));
+    is_kept = false;
     return value;
   }
+  /** Whatever the next step is, it does not fall. */
+  void keep() { is_kept = true; }
   double value = 0.; // [s]; goes into checkpoints
+
+private:
+  bool is_kept = false; // until the next step; nothing goes on from there
 };
 
 /**

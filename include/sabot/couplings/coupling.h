@@ -48,6 +48,11 @@ public:
   /** Add forces [N] to owned nodes. @p dt is the step just made [s]; 0 at the
       start, where nothing has moved yet and springs do not act. Collective. */
   virtual void add_forces(const double dt) = 0;
+  /** The step that comes is cut to meet the end of the run: springs whose
+      stiffness goes by the step keep that of the last one, of @p last_step [s],
+      or what rests would be struck in the state that is written. Until the next
+      add_forces(). */
+  virtual void keep_stiffness(const double /*last_step*/) {}
   /** Between steps, after the bodies' own updates: what it does to bodies
       themselves. @return whether forces of bodies changed, the same on all
       ranks. Collective. */

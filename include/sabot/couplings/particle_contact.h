@@ -43,6 +43,7 @@ public:
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
+  void keep_stiffness(const double) override { points.steady_step.keep(); }
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
   std::size_t n_items() const override { return groups.size(); }

@@ -58,6 +58,10 @@ public:
   void initialize() override;
   void update_search(const unsigned int step, const double dt) override;
   void add_forces(const double dt) override;
+  void keep_stiffness(const double last_step) override
+  {
+    kept_step = last_step;
+  }
   void accumulate_work(const double half_dt) override;
   void add_energies(EnergyLedger &ledger) const override;
   std::size_t n_items() const override { return halo.n_owned(); }
@@ -119,6 +123,7 @@ private:
   double skin = 0.;
   SearchAge age;
   std::size_t n_loose = 0;
+  double kept_step = 0.; // that bounds stiffnesses, too, in the next step [s]
 };
 } // namespace sabot
 

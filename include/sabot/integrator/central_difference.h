@@ -74,6 +74,9 @@ public:
    * @p counts: steps that each body makes meanwhile, see Substeps; empty: one.
    */
   void advance(const double dt, const std::vector<unsigned int> &counts);
+  /** Before a step that is cut to meet the end: Coupling::keep_stiffness(). The
+      last one may have been made before a restart. */
+  void keep_stiffness(const double last_step);
   /**
    * Kernel updates and the like, after @p step steps. Collective.
    * Where a body says that something changed couplings pass on what is there

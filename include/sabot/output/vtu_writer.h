@@ -59,6 +59,14 @@ private:
   /** The .pvtu that joins the ranks' pieces; by rank 0. */
   void write_collection(const std::string &body, const OutputMesh &mesh,
                         const unsigned int frame) const;
+  /** What another number of ranks has left of a frame, before the run went on
+      from an earlier one. By rank 0. */
+  void remove_other_pieces(const std::string &body,
+                           const unsigned int frame) const;
+  /** Below the folder: that of one rank, or what joins those of several,
+      whichever wrote the frame. By rank 0. */
+  std::string frame_file(const std::string &body,
+                         const unsigned int frame) const;
 
   const std::string folder; // of the run
   MPI_Comm communicator;

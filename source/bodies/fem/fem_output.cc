@@ -100,9 +100,15 @@ void FemBody::fill_output(OutputMesh &out) const
               return nodal_state.position[i][c] -
                      nodal_state.reference_position[i][c];
             });
-  add_field(out.point_fields, "velocity", n_nodes,
-            [&](const std::size_t i, const unsigned int c)
-            { return nodal_state.velocity[i][c]; });
+  if (out.point_fields.wants("velocity"))
+  {
+    // Forces know those of other ranks before the last kick.
+    AlignedVector<Vec> velocity = nodal_state.velocity;
+    node_exchange.update(velocity.data());
+    add_field(out.point_fields, "velocity", n_nodes,
+              [&](const std::size_t i, const unsigned int c)
+              { return velocity[i][c]; });
+  }
   add_material_fields(out.cell_fields, owned, cells->size(),
                       cells->cell_stress().data(), cells->cell_states().data(),
                       cells->states());

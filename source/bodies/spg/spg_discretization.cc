@@ -121,6 +121,10 @@ public:
                      "\"Converts by\"; box or cylinder, where given by Size or "
                      "Radius, are of particles from the start. No tie is "
                      "needed.");
+    prm.declare_entry("Start zone", "by entries", one_of("by entries|yes|no"),
+                      "Whether the box or cylinder of a self-finding zone is "
+                      "of particles from the start. by entries: where Size or "
+                      "Radius is set.");
     prm.declare_knob(
         "Coarse cells", "by spacing", one_of("by spacing|split|whole"),
         "Cells of the host of a self-finding zone that are coarser "
