@@ -27,8 +27,7 @@ void bound_gaping_volumes(SpgParts &body)
 {
   if (!body.options.can_fail() || !body.residual_strength.bears_no_tension())
     return;
-  constexpr double ball = 4.1887902047863905; // 4 pi/3
-  const double most = ball * std::pow(body.kernel.support(), 3);
+  const double most = 4. / 3. * M_PI * std::pow(body.kernel.support(), 3);
   ParticleFields &fields = body.fields;
   for (std::size_t i = 0; i < body.nodes.n_owned; ++i)
   {
