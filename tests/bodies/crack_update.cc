@@ -56,6 +56,11 @@ struct CrackingBlock
         body->rooms().points.state("effective plastic strain")[i] = 1.;
   }
   const SpgParts &rooms() const { return body->rooms(); }
+  Mat present_kernel(const std::size_t i) const
+  {
+    return rooms().fields.incremental_deformation_gradient[i] *
+           rooms().fields.kernel[i];
+  }
   double volume(const std::size_t i) const
   {
     return rooms().fields.kernel_reference_volume[i] *
@@ -76,14 +81,17 @@ TEST(CrackUpdate, bonds_go_and_kernels_stay)
   const std::size_t n = rooms.nodes.n_owned;
   const AlignedVector<Vec> X = rooms.fields.kernel_reference_position;
   std::vector<double> volume(n);
-  AlignedVector<Mat> F(n);
-  std::size_t n_bonds = 0, n_left = 0, n_failed = 0;
+  AlignedVector<Mat> F(n), kernel(n);
+  std::size_t n_bonds = 0, n_left = 0, n_failed = 0, n_other = 0;
   for (std::size_t i = 0; i < n; ++i)
   {
     volume[i] = block.volume(i);
     F[i] = rooms.fields.deformation_gradient(i);
+    kernel[i] = block.present_kernel(i);
     n_bonds += rooms.bonds.n_bonds(i);
   }
+  const AlignedVector<Mat> F_inc =
+      rooms.fields.incremental_deformation_gradient;
   const std::size_t n_updates = rooms.watch.n_updates;
   ASSERT_TRUE(block.body->update_topology(5, 0.));
   EXPECT_EQ(rooms.watch.n_updates, n_updates);
@@ -93,6 +101,9 @@ TEST(CrackUpdate, bonds_go_and_kernels_stay)
     EXPECT_EQ(norm(rooms.fields.kernel_reference_position[i] - X[i]), 0.);
     EXPECT_NEAR(block.volume(i) / volume[i], 1., 1e-12);
     EXPECT_LT(norm_of(rooms.fields.deformation_gradient(i) - F[i]), 1e-12);
+    EXPECT_LT(norm_of(block.present_kernel(i) - kernel[i]), 1e-12 * 2e-3);
+    n_other += norm_of(rooms.fields.incremental_deformation_gradient[i] -
+                       F_inc[i]) > 1e-3;
     for (std::size_t b = rooms.bonds.begin(i); b < rooms.bonds.end(i); ++b)
     {
       EXPECT_EQ(rooms.bonds.neighbor[rooms.bonds.reverse[b]], i);
@@ -103,6 +114,7 @@ TEST(CrackUpdate, bonds_go_and_kernels_stay)
   }
   EXPECT_LT(n_left + 300, n_bonds);
   EXPECT_GT(n_failed, 20u);
+  EXPECT_GT(n_other, 20u);
 }
 
 TEST(CrackUpdate, forces_are_those_of_an_evaluation_of_all)

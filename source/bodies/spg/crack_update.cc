@@ -114,11 +114,15 @@ void CrackUpdate::take_functions(const std::vector<Row> &left)
     const Mat &F = left[k].gradient;
     Mat &F_before = fields.incremental_deformation_gradient[i];
     fields.kernel_reference_volume[i] *= determinant(F_before) / determinant(F);
+    const Mat back = inverse(F);
     fields.kernel_reference_deformation_gradient[i] =
-        inverse(F) * fields.deformation_gradient(i);
+        back * fields.deformation_gradient(i);
+    // And F H, what the kernel has become, stays.
+    fields.kernel[i] = back * (F_before * fields.kernel[i]);
     F_before = F;
     approximation.take(i, left[k]);
   }
+  body.exchange.update(fields.kernel.data());
 }
 
 bool CrackUpdate::renew_forces(const CrackedParticles &cracked)
