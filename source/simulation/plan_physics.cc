@@ -299,9 +299,11 @@ std::string to_text(const PhysicsPlan &physics, const CostPlan &cost)
              : "none is foreseen\n") +
         "      " + c.basis + "\n";
   if (!cost.conversions.empty())
-    out += text("      which adds %.3g s; measured: within a factor of 2 in "
-                "particles and cost (doc/performance.md)\n",
-                cost.conversion_seconds);
+    out += text(cost.conversion_seconds < 0. ? "      which saves %.3g s"
+                                             : "      which adds %.3g s",
+                std::abs(cost.conversion_seconds)) +
+           "; measured up to 2 km/s: within a factor of 2 in particles and "
+           "cost (doc/performance.md)\n";
   out += "  stable step " + text("%.3g s", cost.first_stable_step) +
          " at the start, limited by " + cost.limiter + "\n";
   out += "  steps " +
