@@ -43,6 +43,27 @@ void judge_heat(const Scene &scene, PhysicsPlan &plan)
              "matter, depending on the material"});
 }
 
+/** Bodies whose particles a plane shock of @p pressure [Pa] would shake. */
+void judge_shocks(const double pressure, PhysicsPlan &plan)
+{
+  for (const PlannedBody &body : plan.bodies)
+  {
+    if (!body.facts.deforms || !body.facts.largest_shock)
+      continue;
+    const double most = *body.facts.largest_shock,
+                 shock = pressure / body.facts.material->bulk_modulus();
+    if (shock > most)
+      plan.numbers.push_back(
+          {"that pressure over the bulk modulus of " + body.name,
+           "least-squares functions", shock,
+           text("plane shocks above some %.3g shake such particles; ", most) +
+               (shock < 0.4
+                    ? "\"Normalized support size = 2.5\" bears them, as "
+                      "\"Approximation = convex exponential\" does"
+                    : "\"Approximation = convex exponential\" bears them")});
+  }
+}
+
 void judge_impact(const Scene &scene, PhysicsPlan &plan)
 {
   const ImpactFacts &impact = plan.impact;

@@ -34,6 +34,27 @@ std::string instead_of_control(const BodyFacts &facts)
   return text;
 }
 
+/** What a body of particles can do that the stabilization takes less, of which
+    metal that has failed has the part @p of_failed. */
+std::string instead_of_stabilization(const BodyFacts &facts,
+                                     const double of_failed)
+{
+  const std::string shocks =
+      !facts.largest_shock ? "use finer particles"
+      : *facts.largest_shock < 0.3
+          ? "against shocks that shake particles set \"Normalized support size "
+            "= 2.5\" or \"Approximation = convex exponential\""
+          : "against shocks that shake particles set \"Approximation = convex "
+            "exponential\"";
+  return of_failed > 0.5
+             ? percent(of_failed) +
+                   " of it is in metal that has failed, where it acts like "
+                   "friction between pieces and finer particles hardly change "
+                   "it (doc/penetration.md)"
+             : shocks + (facts.largest_shock ? ", otherwise use finer particles"
+                                             : "");
+}
+
 bool holds_only_rigid(const Coupling &coupling,
                       const std::vector<std::unique_ptr<Body>> &bodies)
 {
@@ -94,23 +115,24 @@ void describe_quality(const Scene &scene, const ControlShares &shares,
 {
   for (const auto &body : scene.bodies)
   {
-    const std::string control = body->measure().control;
+    const BodyMeasures measures = body->measure();
+    const std::string &control = measures.control;
     if (control.empty())
       continue;
+    const double of_failed =
+        measures.control_in_failed / std::max(measures.control_energy, 1e-300);
     const std::string share = control + " energy of body \"" + body->name +
                               "\" is " + percent(shares.share(body->id)) +
                               " of its internal energy (largest of the run)";
     if (!shares.is_large(body->id, energy_scale))
       log.line("  " + share);
     else
-      log.warning(
-          share + ", more than " + percent(ControlShares::most) +
-          ": the answer depends on it; use finer " + body->item_name() +
-          (control == "hourglass"
-               ? instead_of_control(body->facts())
-               // Decision 60.
-               : ", or, against the sawtooth that strong shocks leave "
-                 "whatever the spacing, \"Normalized support size = 2.5\""));
+      log.warning(share + ", more than " + percent(ControlShares::most) +
+                  ": the answer depends on it; " +
+                  (control == "hourglass"
+                       ? "use finer " + body->item_name() +
+                             instead_of_control(body->facts())
+                       : instead_of_stabilization(body->facts(), of_failed)));
   }
   for (const auto &body : scene.bodies)
     if (const MassScaling *const scaling = body->mass_scaling())

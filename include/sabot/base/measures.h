@@ -44,6 +44,8 @@ struct BodyMeasures
       nothing does. Its energy [J] is also a column of own. */
   std::string control;
   double control_energy = 0.;
+  /** The part of it that metal has which has failed by now [J]. */
+  double control_in_failed = 0.;
   double eroded_mass = 0.;                 // [kg]
   std::array<double, 3> eroded_momentum{}; // [kg m/s]
   /** Momentum of what mass scaling added, less what that brought: it belongs to

@@ -38,6 +38,10 @@ struct BodyFacts
   /** Effective plastic strain at which it fails, by damage that in shear;
       nothing where another measure decides, or where nothing fails. */
   std::optional<double> failure_strain;
+  /** Pressure of an impact, v Z1 Z2/(Z1 + Z2), over the bulk modulus up to
+      which plane shocks were seen not to shake its particles; nothing where no
+      bound was found (decision 60). */
+  std::optional<double> largest_shock;
 };
 } // namespace sabot
 

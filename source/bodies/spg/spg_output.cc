@@ -32,13 +32,20 @@ BodyMeasures SpgBody::measure() const
 {
   const double *const eps = points.state("effective plastic strain");
   const double *const temperature = points.state("temperature");
-  ExactSum internal, stabilized, plastic, lost, bonds_failed, bonds_all, n_weak,
-      n_isolated, fallbacks;
+  ExactSum internal, stabilized, of_failed, plastic, lost, bonds_failed,
+      bonds_all, n_weak, n_isolated, fallbacks;
   fallbacks.add(approximation.n_fallbacks());
   double top[2] = {0., 0.};
   const std::size_t n = nodal_state.n_owned;
+  const double *const stabilization_work = stabilization->work().data();
   internal.add(points.internal_energy.data(), n);
-  stabilized.add(stabilization->work().data(), n);
+  stabilized.add(stabilization_work, n);
+  {
+    ExactTerms terms(of_failed);
+    for (std::size_t i = 0; i < n; ++i)
+      if (failure.is_failed[i])
+        terms.add(stabilization_work[i]);
+  }
   plastic.add(points.plastic_work.data(), n);
   lost.add(failure.loss.data(), n);
   // Of numbers up to 2^53 any sum is exact.
@@ -56,14 +63,16 @@ BodyMeasures SpgBody::measure() const
   bonds_all.add(all);
   n_weak.add(weak);
   n_isolated.add(isolated);
-  ExactSum::reduce({&internal, &stabilized, &plastic, &lost, &bonds_failed,
-                    &bonds_all, &n_weak, &n_isolated, &fallbacks},
+  ExactSum::reduce({&internal, &stabilized, &of_failed, &plastic, &lost,
+                    &bonds_failed, &bonds_all, &n_weak, &n_isolated,
+                    &fallbacks},
                    communicator);
   MPI_Allreduce(MPI_IN_PLACE, top, 2, MPI_DOUBLE, MPI_MAX, communicator);
   BodyMeasures measures = measure_nodes(nodal_state, communicator);
   measures.internal_energy = internal.value();
   measures.control = "stabilization";
   measures.control_energy = stabilized.value();
+  measures.control_in_failed = of_failed.value();
   measures.own.push_back({"stabilization energy", "J", stabilized.value()});
   measures.own.push_back({"plastic work", "J", plastic.value()});
   if (options.can_fail())
@@ -99,6 +108,8 @@ BodyFacts SpgBody::facts() const
   facts.may_fail = options.can_fail();
   facts.failure_strain =
       options.failure_criterion->critical_plastic_strain(points.law());
+  if (!options.stores_gradients())
+    facts.largest_shock = options.normalized_support < 2.5 ? 0.2 : 0.4;
   return facts;
 }
 
