@@ -223,7 +223,8 @@ void Run::loop()
       timer.count(items_of_rank());
       record();
     }
-    write_outputs(false);
+    if (!stepper.is_finished()) // else once, as the last
+      write_outputs(false);
     report.progress({stepper.steps(), stepper.time(), stepper.last_step(),
                      limiter, earlier_seconds + seconds_since_start(),
                      seconds_since_start()});
@@ -278,8 +279,11 @@ void Run::record()
   }
   forces.look(measures);
   forces.append(files.history, stepper.time());
-  if (scene.quantities.empty())
-    return;
+  quantities_are_due = !scene.quantities.empty();
+}
+
+void Run::record_quantities()
+{
   Measures row = {{"time", "s", stepper.time()}};
   for (const auto &quantity : scene.quantities)
   {
@@ -287,6 +291,7 @@ void Run::record()
     row.push_back({quantity->name, quantity->unit(), quantity->value()});
   }
   files.history.append("quantities", row);
+  quantities_are_due = false;
 }
 
 void Run::write_outputs(const bool is_last)
@@ -301,6 +306,9 @@ void Run::write_outputs(const bool is_last)
       timer.count(items_of_rank());
     output->write_when_due(moment, files);
   }
+  // Some are of the rows that gauges have just written.
+  if (quantities_are_due)
+    record_quantities();
   if (is_last && !files.history.tables.empty())
     files.write_history();
 }
