@@ -152,7 +152,7 @@ private:
   std::chrono::steady_clock::time_point start_time, last_look;
   double earlier_seconds = 0.; // wall time before the run was resumed
   bool interrupted = false;
-  bool within_step = false; // an error now leaves an unfinished step
+  bool within_step = false;        // an error now leaves an unfinished step
   bool quantities_are_due = false; // the bodies have been recorded, they not
 };
 } // namespace sabot
