@@ -188,8 +188,15 @@ void Run::make_step(const StepProposal &proposal)
   if (dt < scene.settings.end_time - stepper.time())
     smallest_step = std::min(smallest_step, stable);
   step_shares.look(proposal, dt, stepper.reaches_end(dt));
+  const std::vector<unsigned int> counts = stepper.substeps(proposal, dt);
+  if (stepper.is_cut(dt))
+  {
+    const double kick = balance.kick_energy(stepper.last_step());
+    stepper.take(counts);
+    balance.cut(kick, balance.kick_energy(dt));
+  }
   within_step = true;
-  stepper.advance(dt, stepper.substeps(proposal, dt));
+  stepper.advance(dt, counts);
   stepper.update();
   within_step = false;
 }

@@ -102,6 +102,17 @@ class Answers(unittest.TestCase):
             force = result(out)["quantities"]["force"]["value"]
             self.assertLess(abs(force / weight - 1.), 0.1, end)
 
+    def test_the_cut_last_step_keeps_the_energy_of_substeps(self):
+        # Within two substeps a block at rest goes up and down by its weight.
+        scene = os.path.join(SOURCE, "tests/scenes/resting.prm")
+        for end in ("40.005 us", "40.05 us"):
+            out = folder("resting-substeps")
+            self.run_scene(scene, out, "End time=" + end,
+                           "Bodies/block/Cell size=0.375 mm")
+            r = result(out)
+            self.assertGreater(r["step_limits"]["substeps"]["block"], 1.9)
+            self.assertLess(r["energy_residual_max"], 1e-6, end)
+
     def test_gauges_on_cells_of_several_ranks(self):
         # Velocities of nodes of other ranks are those after the last kick.
         scene = os.path.join(SOURCE, "tests/scenes/driven-bar.prm")
