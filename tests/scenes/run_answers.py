@@ -72,9 +72,21 @@ class Answers(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("Checkpoint at the end", done.stdout)
 
+    def test_a_self_finding_zone_of_some_size_has_particles_at_the_start(self):
+        scene = os.path.join(SOURCE, "tests/scenes/growing.prm")
+        for settings, share in (((), 0.25), (("Bodies/zone/Start zone=no",),
+                                             0.)):
+            out = folder("started")
+            self.run_scene(scene, out, "End time=0.01 us", *settings)
+            bodies = result(out)["bodies"]
+            mass = 2700. * 200e-9
+            self.assertAlmostEqual(bodies["zone"]["mass"] / mass, share)
+            self.assertAlmostEqual(bodies["block"]["mass"] / mass, 1. - share)
+
     def test_the_expanded_parameters_are_the_same_scene(self):
         # That a zone has no particles at the start shows by what is not set.
         for scene in (BAR, os.path.join(SOURCE, "tests/scenes/found.prm"),
+                      os.path.join(SOURCE, "tests/scenes/growing.prm"),
                       os.path.join(SOURCE, "tests/scenes/driven-bar.prm")):
             with self.subTest(scene):
                 out, again = folder("scene"), folder("expanded")
