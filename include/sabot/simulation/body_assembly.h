@@ -55,8 +55,8 @@ private:
    */
   Carving read_carving(const std::string &name, const std::string &from) const;
   /** Whether a zone that finds itself, whose section has been entered, has
-      particles from the start; leaves "yes" or "no" for the expanded parameters,
-      where all entries are set. */
+      particles from the start; leaves "yes" or "no" for the expanded
+     parameters, where all entries are set. */
   bool has_start_zone(const std::string &name) const;
   /**
    * Cut the meshes of hosts whose zones follow them.
