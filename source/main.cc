@@ -349,8 +349,8 @@ void add_picture(CLI::App &app, PictureArguments &picture, Action &action)
                      "Field that colors the bodies (default: effective "
                      "plastic strain, or velocity where nothing can yield)");
   command.add_option("--time", picture.times,
-                     "Times, separated by commas: \"20 us, 0.1 ms\" (default: "
-                     "the last)");
+                     "Times, separated by commas: \"20 us, 0.1 ms\", of the "
+                     "nearest frames (default: the last)");
   command
       .add_option("--normal", picture.normal,
                   "Axis across the plane of the section")

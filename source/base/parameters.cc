@@ -147,7 +147,7 @@ std::vector<std::pair<std::string, std::string>> Parameters::knobs()
       prm->enter_subsection(knob[k]);
       path += knob[k] + "/";
     }
-    values.emplace_back(path + knob.back(), get(knob.back()));
+    values.emplace_back(path + knob.back(), prm->get(knob.back()));
     for (std::size_t k = 0; k + 1 < knob.size(); ++k)
       prm->leave_subsection();
   }
@@ -166,25 +166,28 @@ void Parameters::leave_subsection()
   section.pop_back();
 }
 
+void Parameters::expect_declared(const std::string &name) const
+{
+  // deal.II asserts so in debug builds; else it gives an empty text.
+  if (!is_declared(name))
+    throw std::logic_error("entry \"" + name + "\" was not declared");
+}
+
 std::string Parameters::get(const std::string &name) const
 {
-  try
-  {
-    return prm->get(name);
-  }
-  catch (const dealii::ExceptionBase &)
-  {
-    throw std::logic_error("entry \"" + name + "\" was not declared");
-  }
+  expect_declared(name);
+  return prm->get(name);
 }
 
 bool Parameters::get_bool(const std::string &name) const
 {
+  expect_declared(name);
   return prm->get_bool(name);
 }
 
 long Parameters::get_integer(const std::string &name) const
 {
+  expect_declared(name);
   return prm->get_integer(name);
 }
 

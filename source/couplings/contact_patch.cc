@@ -105,9 +105,7 @@ bool ContactPatch::spread(const NearFaces &node, const double radius,
   Vec offset = p;
   for (std::size_t a = 0; a < nodes.size(); ++a)
     offset -= weights[a] * points[a];
-  // Past a rim it is let go as before a single face.
-  const double rim = projection.gap / projection.along;
-  depth = std::min(1., std::max(0., rim)) * std::max(0., -dot(offset, mean));
+  depth = std::max(0., -dot(offset, mean));
   normal = mean;
   for (std::size_t a = 0; a < nodes.size(); ++a)
     if (weights[a] != 0.)

@@ -357,14 +357,17 @@ FaceStanding::try_hold(const NearFaces &node, const SmoothNormal &own,
     if (sideways >= tolerance)
       return -1;
     f = nearest;
-    held.along -= bulge_below(node, f, held.weight);
-    held.gap = held.along * (1. - std::max(0., sideways) / tolerance);
+    held.gap = held.along -= bulge_below(node, f, held.weight);
     held.normal = common_normal_of(normal_of_closest(node, side, held), own,
                                    is_particle(node));
     held.face_normal = held.normal;
     place = PressingPlace();
     place.depth = -held.gap;
     place.normal = held.normal;
+    // All of the force fades, damping and friction included: what is let go
+    // has the full speed of approach.
+    place.fade = 1. - std::max(0., sideways) / tolerance;
+    place.seen = place.acting_depth();
   }
   else
     place = find_place(node, side, f, held);

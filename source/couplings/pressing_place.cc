@@ -21,6 +21,47 @@ constexpr double gauss_point[4] = {0.069431844202973712, 0.33000947820757187,
 constexpr double gauss_weight[4] = {0.17392742256872693, 0.32607257743127307,
                                     0.32607257743127307, 0.17392742256872693};
 
+/** Part of an edge, from the node (0) to the next one (1). */
+struct Range
+{
+  double low = 0., high = 1.;
+  bool is_empty() const { return !(low < high); }
+};
+
+/** The least range outside of which value + slope s - curved s^2/2 is not
+    positive; it does not jump where the curvature passes zero. */
+Range where_positive(const double value, const double slope,
+                     const double curved)
+{
+  const double end = value + slope - 0.5 * curved,
+               square = slope * slope + 2. * curved * value;
+  const bool starts = value > 0., ends = end > 0.;
+  if (starts && ends)
+    return {0., 1.};
+  if (!starts && !ends && !(slope > 0. && slope < curved && square > 0.))
+    return {0., 0.};
+  // Neither root is a difference of like numbers; the one over the curvature
+  // goes to infinity where this is round-off, and is then not meant.
+  const double sum =
+      slope + std::copysign(std::sqrt(std::max(0., square)), slope);
+  if (sum == 0.)
+    return {0., 1.};
+  const double near = std::clamp(-2. * value / sum, 0., 1.),
+               far = curved != 0. ? std::clamp(sum / curved, 0., 1.) : 1.;
+  if (!starts && !ends)
+    return {near, far};
+  const double change = (sum < 0.) == starts ? near : far;
+  return starts ? Range{0., change} : Range{change, 1.};
+}
+
+/** The largest of slope s - curved s^2/2, 0 <= s <= 1. */
+double most_along(const double slope, const double curved)
+{
+  if (slope > 0. && slope < curved)
+    return 0.5 * slope * slope / curved;
+  return std::max(0., slope - 0.5 * curved);
+}
+
 /** What all faces around a node share. */
 struct Above
 {
@@ -77,41 +118,31 @@ public:
   bool find_rectangle()
   {
     const double p = curved[1], q = curved[3], pq = 0.5 * (curved[2] - p - q),
-                 determinant = p * q - pq * pq;
-    low[0] = low[1] = 0.;
-    high[0] = high[1] = 1.;
-    const double flat = 1e-3 * (std::abs(p) + std::abs(q));
-    if (p > flat && q > flat && determinant > 0.01 * p * q)
+                 determinant = p * q - pq * pq, d = above.node.depth,
+                 mixed = std::max(0., -pq);
+    range[0] = where_positive(d + most_along(slope[3] + mixed, q), slope[1], p);
+    range[1] = where_positive(d + most_along(slope[1] + mixed, p), slope[3], q);
+    if (is_bent(1) && is_bent(3) && determinant > 0.01 * p * q)
     {
       const double xi = (q * slope[1] - pq * slope[3]) / determinant,
                    eta = (p * slope[3] - pq * slope[1]) / determinant,
-                   most = above.node.depth +
-                          0.5 * (slope[1] * xi + slope[3] * eta);
+                   most = d + 0.5 * (slope[1] * xi + slope[3] * eta);
       narrow(0, xi, most * q / determinant);
       narrow(1, eta, most * p / determinant);
     }
-    else if (p > flat && !(q > flat))
-      narrow(0, slope[1] / p,
-             (above.node.depth + 0.5 * slope[1] * slope[1] / p +
-              std::max(0., slope[3] - 0.5 * q)) /
-                 p);
-    else if (q > flat && !(p > flat))
-      narrow(1, slope[3] / q,
-             (above.node.depth + 0.5 * slope[3] * slope[3] / q +
-              std::max(0., slope[1] - 0.5 * p)) /
-                 q);
-    return low[0] < high[0] && low[1] < high[1];
+    return !range[0].is_empty() && !range[1].is_empty();
   }
   /** Calls @p action(weights of corners, way, part of the face, d > 0, b). */
   template <typename Action>
   void for_points(const Action &action) const
   {
-    const double width = high[0] - low[0], height = high[1] - low[1];
+    const double width = range[0].high - range[0].low,
+                 height = range[1].high - range[1].low;
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
       {
-        const double xi = low[0] + width * gauss_point[i],
-                     eta = low[1] + height * gauss_point[j];
+        const double xi = range[0].low + width * gauss_point[i],
+                     eta = range[1].low + height * gauss_point[j];
         const double w[4] = {(1. - xi) * (1. - eta), xi * (1. - eta), xi * eta,
                              (1. - xi) * eta};
         std::array<double, 4> weight;
@@ -133,11 +164,17 @@ public:
   std::size_t number() const { return face; }
 
 private:
+  /** Whether the bend towards a corner is more than round-off, which the
+      ellipse's center would magnify. */
+  bool is_bent(const int corner) const
+  {
+    return curved[corner] > 1e-6 * norm(x[corner]);
+  }
   void narrow(const int axis, const double middle, const double two_depth)
   {
     const double half = std::sqrt(2. * std::max(0., two_depth));
-    low[axis] = std::max(0., middle - half);
-    high[axis] = std::min(1., middle + half);
+    range[axis].low = std::max(range[axis].low, middle - half);
+    range[axis].high = std::min(range[axis].high, middle + half);
   }
 
   const Above &above;
@@ -145,7 +182,8 @@ private:
   int first;            // corner that is the node
   std::array<Vec, 4> x; // from the node, which is the first
   double curved[4] = {0., 0., 0., 0.}, slope[4] = {0., 0., 0., 0.};
-  double area, low[2], high[2];
+  double area;
+  Range range[2]; // along the edges to corners 1 and 3
 };
 
 /** Sums over the places around a node, by w_a max(0, d) dA. */

@@ -35,7 +35,7 @@ double Stepper::mean_substeps(const Body &body) const
 void Stepper::advance(const double step,
                       const std::vector<unsigned int> &counts)
 {
-  if (n_steps > 0 && step < dt && reaches_end(step))
+  if (is_cut(step))
     integrator.keep_stiffness(dt);
   dt = step;
   integrator.advance(step, counts);

@@ -94,15 +94,21 @@ void Substeps::change_kick(Member &member)
     change[i] = part * member.own[i];
 }
 
-void Substeps::begin(const std::vector<unsigned int> &counts)
+void Substeps::take(const std::vector<unsigned int> &counts)
 {
   for (Member &member : members)
   {
     member.n = counts.empty() ? 1 : counts[member.body->id];
-    member.made += member.n;
     member.body->nodes().n_substeps = member.n;
     change_kick(member);
   }
+}
+
+void Substeps::begin(const std::vector<unsigned int> &counts)
+{
+  take(counts);
+  for (Member &member : members)
+    member.made += member.n;
 }
 
 void Substeps::keep_own(Member &member)

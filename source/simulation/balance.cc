@@ -42,7 +42,7 @@ double EnergyBalance::total_energy(const double dt)
       supplied += size;
   }
   passed = std::max(parts, supplied);
-  return dt > 0. ? total - kick_energy(dt) : total;
+  return dt > 0. ? total - kick_energy(dt) + cut_kick : total;
 }
 
 double EnergyBalance::kick_energy(const double dt) const

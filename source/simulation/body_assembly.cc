@@ -136,7 +136,6 @@ Carving BodyAssembly::read_carving(const std::string &name,
 bool BodyAssembly::has_start_zone(const std::string &name) const
 {
   const std::string path = "Bodies/" + name;
-  const EnteredSubsection entered(prm, "Bodies", name);
   if (prm.get("Start zone") == "by entries")
   {
     const bool is_given =

@@ -188,8 +188,15 @@ void Run::make_step(const StepProposal &proposal)
   if (dt < scene.settings.end_time - stepper.time())
     smallest_step = std::min(smallest_step, stable);
   step_shares.look(proposal, dt, stepper.reaches_end(dt));
+  const std::vector<unsigned int> counts = stepper.substeps(proposal, dt);
+  if (stepper.is_cut(dt))
+  {
+    const double kick = balance.kick_energy(stepper.last_step());
+    stepper.take(counts);
+    balance.cut(kick, balance.kick_energy(dt));
+  }
   within_step = true;
-  stepper.advance(dt, stepper.substeps(proposal, dt));
+  stepper.advance(dt, counts);
   stepper.update();
   within_step = false;
 }
@@ -223,7 +230,8 @@ void Run::loop()
       timer.count(items_of_rank());
       record();
     }
-    write_outputs(false);
+    if (!stepper.is_finished()) // else once, as the last
+      write_outputs(false);
     report.progress({stepper.steps(), stepper.time(), stepper.last_step(),
                      limiter, earlier_seconds + seconds_since_start(),
                      seconds_since_start()});
@@ -278,8 +286,11 @@ void Run::record()
   }
   forces.look(measures);
   forces.append(files.history, stepper.time());
-  if (scene.quantities.empty())
-    return;
+  quantities_are_due = !scene.quantities.empty();
+}
+
+void Run::record_quantities()
+{
   Measures row = {{"time", "s", stepper.time()}};
   for (const auto &quantity : scene.quantities)
   {
@@ -287,6 +298,7 @@ void Run::record()
     row.push_back({quantity->name, quantity->unit(), quantity->value()});
   }
   files.history.append("quantities", row);
+  quantities_are_due = false;
 }
 
 void Run::write_outputs(const bool is_last)
@@ -301,6 +313,9 @@ void Run::write_outputs(const bool is_last)
       timer.count(items_of_rank());
     output->write_when_due(moment, files);
   }
+  // Some are of the rows that gauges have just written.
+  if (quantities_are_due)
+    record_quantities();
   if (is_last && !files.history.tables.empty())
     files.write_history();
 }

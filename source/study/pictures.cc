@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +43,41 @@ std::string title_of(const std::string &folder)
   const bool has_title = result.is_object() && result.contains("title") &&
                          result["title"].is_string();
   return file && has_title ? result["title"].get<std::string>() : "";
+}
+
+/** Times of the frames that a run has left, ascending [s]. */
+std::vector<double> frame_times(const std::string &folder)
+{
+  const std::string key = "<DataSet timestep=\"";
+  std::vector<double> times;
+  for (const std::string &line : lines_of(folder + "/sabot.pvd"))
+    if (const std::size_t at = line.find(key); at != std::string::npos)
+    {
+      const double time = std::atof(line.c_str() + at + key.size());
+      if (times.empty() || times.back() != time)
+        times.push_back(time);
+    }
+  return times;
+}
+
+/** InputError for a time that no frame stands for: farther from the nearest
+    than half of the largest distance of two. */
+void check_times(const std::vector<double> &wanted,
+                 const std::vector<double> &frames)
+{
+  if (frames.empty())
+    return; // the program that draws says so
+  double reach = 1e-6 * frames.back();
+  for (std::size_t f = 1; f < frames.size(); ++f)
+    reach = std::max(reach, 0.5001 * (frames[f] - frames[f - 1]));
+  for (const double time : wanted)
+    if (time > frames.back() + reach || time < frames.front() - reach)
+      throw InputError("", "--time: at " + formatted("%.6g", 1e6 * time) +
+                               " us there is nothing to show: the run has "
+                               "frames from " +
+                               formatted("%.6g", 1e6 * frames.front()) +
+                               " to " + formatted("%.6g", 1e6 * frames.back()) +
+                               " us");
 }
 
 /** What the program that draws has said, on one line. */
@@ -141,6 +177,8 @@ ExitCode draw_picture(const PictureArguments &arguments)
                      ? ": its scene lists no output of type VTU; add one and "
                        "run it again"
                      : ""));
+  if (section.contains("times"))
+    check_times(section["times"], frame_times(arguments.folder));
   const std::string file = section["file"];
   const std::string folder = fs::path(file).parent_path().string();
   make_folder(folder);

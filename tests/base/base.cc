@@ -302,6 +302,21 @@ TEST_F(Files, entries_are_declared_in_their_subsection)
 #define EXPECT_CONTAINS(text, part)                                            \
   EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
 
+TEST_F(Files, what_is_not_declared_is_no_empty_text)
+{
+  Parameters prm;
+  {
+    const EnteredSubsection entered(prm, "Bodies", "plate");
+    prm.declare_entry("Zone", "fixed", any_text(), "");
+    EXPECT_EQ(prm.get("Zone"), "fixed");
+    EXPECT_THROW(prm.get("Start zone"), std::logic_error);
+    // Entered once more, it is another section.
+    const EnteredSubsection again(prm, "Bodies", "plate");
+    EXPECT_THROW(prm.get("Zone"), std::logic_error);
+  }
+  EXPECT_THROW(prm.get("Zone"), std::logic_error);
+}
+
 TEST_F(Files, includes_are_looked_up_beside_the_includer)
 {
   std::filesystem::create_directory(folder + "/sub");

@@ -194,6 +194,25 @@ TEST_F(Answers, a_drawn_bar_bears_rho_c_v)
   EXPECT_LT(result["momentum_residual_max"].get<double>(), 1e-12);
 }
 
+TEST_F(Answers, quantities_know_the_gauges_of_their_moment)
+{
+  run("driven-bar.prm",
+      {"List of quantities=now", "Quantities/now/Type=history",
+       "Quantities/now/Table=middle", "Quantities/now/Value=final",
+       "Quantities/now/Column=velocity x"});
+  const std::vector<double> t = column("quantities", "time [s]"),
+                            its = column("quantities", "now [m/s]"),
+                            t_of_gauge = column("middle", "time [s]"),
+                            v = column("middle", "velocity x [m/s]");
+  for (std::size_t r = 0, g = 0; r < t.size(); ++r)
+  {
+    while (g + 1 < t_of_gauge.size() && t_of_gauge[g + 1] <= t[r])
+      ++g;
+    EXPECT_EQ(its[r], v[g]) << t[r];
+  }
+  EXPECT_EQ(its.back(), quantity("now"));
+}
+
 TEST_F(Answers, extremes_have_a_time_and_a_place)
 {
   run("held-plate.prm");

@@ -72,9 +72,21 @@ class Answers(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("Checkpoint at the end", done.stdout)
 
+    def test_a_self_finding_zone_of_some_size_has_particles_at_the_start(self):
+        scene = os.path.join(SOURCE, "tests/scenes/growing.prm")
+        for settings, share in (((), 0.25), (("Bodies/zone/Start zone=no",),
+                                             0.)):
+            out = folder("started")
+            self.run_scene(scene, out, "End time=0.01 us", *settings)
+            bodies = result(out)["bodies"]
+            mass = 2700. * 200e-9
+            self.assertAlmostEqual(bodies["zone"]["mass"] / mass, share)
+            self.assertAlmostEqual(bodies["block"]["mass"] / mass, 1. - share)
+
     def test_the_expanded_parameters_are_the_same_scene(self):
         # That a zone has no particles at the start shows by what is not set.
         for scene in (BAR, os.path.join(SOURCE, "tests/scenes/found.prm"),
+                      os.path.join(SOURCE, "tests/scenes/growing.prm"),
                       os.path.join(SOURCE, "tests/scenes/driven-bar.prm")):
             with self.subTest(scene):
                 out, again = folder("scene"), folder("expanded")
@@ -101,6 +113,17 @@ class Answers(unittest.TestCase):
             weight = 7830. * 18e-9 * 20e3  # [N]
             force = result(out)["quantities"]["force"]["value"]
             self.assertLess(abs(force / weight - 1.), 0.1, end)
+
+    def test_the_cut_last_step_keeps_the_energy_of_substeps(self):
+        # Within two substeps a block at rest goes up and down by its weight.
+        scene = os.path.join(SOURCE, "tests/scenes/resting.prm")
+        for end in ("40.005 us", "40.05 us"):
+            out = folder("resting-substeps")
+            self.run_scene(scene, out, "End time=" + end,
+                           "Bodies/block/Cell size=0.375 mm")
+            r = result(out)
+            self.assertGreater(r["step_limits"]["substeps"]["block"], 1.9)
+            self.assertLess(r["energy_residual_max"], 1e-6, end)
 
     def test_gauges_on_cells_of_several_ranks(self):
         # Velocities of nodes of other ranks are those after the last kick.

@@ -1341,6 +1341,7 @@ class Scenes(unittest.TestCase):
         for arguments, code, expected in (
                 ((WORK,), 1, "holds no fields"),
                 ((out, "--time", "3 kg"), 1, "a time"),
+                ((out, "--time", "0 us, 9 us"), 1, "frames from 0 to"),
                 ((out, "--range", "2, 1"), 1, "lower"),
                 ((out, "--normal", "w"), 1, "normal")):
             done = sabot("picture", *arguments)

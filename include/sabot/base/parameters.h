@@ -124,7 +124,7 @@ public:
   void leave_subsection();
 
   /** Text of an entry. One that is not declared is a mistake of the program:
-      std::logic_error in a Debug build, where deal.II looks, else empty. */
+      std::logic_error. */
   std::string get(const std::string &name) const;
   /** Value of an entry declared with boolean(). */
   bool get_bool(const std::string &name) const;
@@ -142,6 +142,8 @@ public:
   const dealii::ParameterHandler &handler() const { return *prm; }
 
 private:
+  void expect_declared(const std::string &name) const;
+
   std::unique_ptr<dealii::ParameterHandler> prm;
   std::vector<std::string> section;                // present
   std::set<std::vector<std::string>> declared;     // sections and name

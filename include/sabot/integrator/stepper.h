@@ -82,6 +82,11 @@ public:
       than the factor times the stable one. */
   std::vector<unsigned int> substeps(const StepProposal &proposal,
                                      const double dt) const;
+  /** Kick by them from here on, as advance() will. */
+  void take(const std::vector<unsigned int> &counts)
+  {
+    integrator.substeps.take(counts);
+  }
   /** Steps of @p body so far over those of the scene. */
   double mean_substeps(const Body &body) const;
   /**
@@ -98,6 +103,12 @@ public:
   double time() const { return integrator.time; } // [s]
   unsigned int steps() const { return n_steps; }  // made so far
   double last_step() const { return dt; }         // [s], 0 at the start
+  /** Whether a step of @p next [s] is shorter than the last one, to meet the
+      end time. */
+  bool is_cut(const double next) const
+  {
+    return n_steps > 0 && next < dt && reaches_end(next);
+  }
   /** To 1e-12 of the end time, as sums of steps are not exact. */
   bool is_finished() const { return time() >= limits.end_time * (1. - 1e-12); }
 

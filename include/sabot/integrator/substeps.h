@@ -69,8 +69,10 @@ public:
              const std::vector<double> &own, double &step,
              std::size_t &decides) const;
 
-  /** A step starts in which body b makes @p counts [b] steps, or one each where
-      that is empty: what kicks have of the forces. */
+  /** Body b makes @p counts [b] steps in the next one, or one each where that
+      is empty: what kicks have of the forces. */
+  void take(const std::vector<unsigned int> &counts);
+  /** It starts. */
   void begin(const std::vector<unsigned int> &counts);
   /** Its own force has been found: keep it, and leave the part of it by which
       the step's end kicks, before loads and couplings add theirs. */

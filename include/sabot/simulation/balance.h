@@ -46,6 +46,15 @@ public:
    * collective, but the same on all ranks, as the sums are.
    */
   void check(const double limit, const std::string &limiter) const;
+  /** The last step is cut: kicks had the energy @p before, and have the energy
+      @p after, by the same forces [J]. */
+  void cut(const double before, const double after)
+  {
+    cut_kick = after - before;
+  }
+  /** By Body::add_kick_energy() with a step of @p dt [s], and what loads take
+      off again [J]. Collective. */
+  double kick_energy(const double dt) const;
   /** Fill row() with the values of a resumed run, leaving all else. */
   void fill_row(const double time, const double dt);
   /**
@@ -64,9 +73,6 @@ public:
 private:
   /** Fills the ledger. @return E - E_kick [J] after a step of @p dt [s]. */
   double total_energy(const double dt);
-  /** By Body::add_kick_energy() and what loads take off again [J]. Collective.
-   */
-  double kick_energy(const double dt) const;
   double momentum_residual() const;
 
   const Scene &scene;
@@ -77,6 +83,7 @@ private:
   static constexpr double kick_step = 1e-6;        // [s], of the next one
   double initial_kick = 0.; // energy of kicks by the first forces [J]
   double first_step = 0.;   // [s]
+  double cut_kick = 0.;     // by which the cut of the last step changes it [J]
   double last = 0., largest = 0.;
   std::array<double, 3> initial_momentum{}; // [kg m/s]
   double momentum_scale = 0., largest_momentum = 0.;

@@ -54,8 +54,9 @@ private:
    * the mesh where host or zone has no lattice of its own.
    */
   Carving read_carving(const std::string &name, const std::string &from) const;
-  /** Whether a zone that finds itself has particles from the start; leaves
-      "yes" or "no" for the expanded parameters, where all entries are set. */
+  /** Whether a zone that finds itself, whose section has been entered, has
+      particles from the start; leaves "yes" or "no" for the expanded
+     parameters, where all entries are set. */
   bool has_start_zone(const std::string &name) const;
   /**
    * Cut the meshes of hosts whose zones follow them.

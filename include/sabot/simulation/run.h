@@ -101,10 +101,13 @@ private:
   std::vector<BodyMeasures> measure_bodies() const;
   /**
    * Balance and forces, then a row for the ledger, each body, forces and
-   * impulses, and the quantities. Collective.
+   * impulses; that of the quantities follows once gauges have theirs.
+   * Collective.
    */
   void record();
-  /** What is due, and with @p is_last all of it and history.h5. Collective. */
+  void record_quantities();
+  /** What is due, and with @p is_last all of it and history.h5; quantities of
+      what has been recorded. Collective. */
   void write_outputs(const bool is_last);
   /**
    * Also judges the zones and says the last lines of the log. @p status:
@@ -149,7 +152,8 @@ private:
   std::chrono::steady_clock::time_point start_time, last_look;
   double earlier_seconds = 0.; // wall time before the run was resumed
   bool interrupted = false;
-  bool within_step = false; // an error now leaves an unfinished step
+  bool within_step = false;        // an error now leaves an unfinished step
+  bool quantities_are_due = false; // the bodies have been recorded, they not
 };
 } // namespace sabot
 

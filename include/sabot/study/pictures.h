@@ -45,8 +45,9 @@ nlohmann::ordered_json section_of(const PictureArguments &arguments);
 std::string draw_pictures(const nlohmann::ordered_json &drawings,
                           const std::string &folder);
 
-/** `sabot picture`: a section through a run, one panel for each time; says the
-    picture's name. InputError where the run has no fields, IOError where
+/** `sabot picture`: a section through a run, one panel for each time, of the
+    nearest frame; says the picture's name. InputError where the run has no
+    fields or a time is more than half an interval beyond them, IOError where
     nothing could be drawn. Without MPI. */
 ExitCode draw_picture(const PictureArguments &arguments);
 } // namespace sabot
