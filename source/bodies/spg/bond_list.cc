@@ -232,6 +232,7 @@ void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
       new_neighbor[bond] = i;
   }
   rows = Rows();
+  ++changes;
   communicator = comm;
   id = global_id;
   owner_of_ghost = ghost_owner;
@@ -399,6 +400,7 @@ bool BondList::settle_removal(int has_changed)
 {
   // Bonds that go or move at a rank's border change what is exchanged.
   MPI_Allreduce(MPI_IN_PLACE, &has_changed, 1, MPI_INT, MPI_MAX, communicator);
+  changes += has_changed;
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
   if ((n_ranks > 1 || mirror != nullptr) && has_changed)

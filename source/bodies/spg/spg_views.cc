@@ -89,17 +89,17 @@ std::size_t SpgViews::n_bonds() const
 
 std::vector<GlobalIndex> SpgViews::piece_labels() const
 {
-  return fragment_labels(body.nodes, body.bonds, body.failure, body.exchange,
-                         communicator);
+  return known_pieces.labels(body, communicator);
 }
 
 std::vector<Fragment> SpgViews::connected_pieces() const
 {
   constexpr double within = 1e-3; // of a spacing; particles are one apart
+  const std::vector<SymmetryPlane> &planes = surface.planes();
   return find_fragments(
-      body.nodes, piece_labels(),
-      planes_crossed(body.nodes, body.bonds, body.failure, surface.planes()),
-      surface.planes(), within * body.kernel.mean_spacing(), communicator);
+      body.nodes, known_pieces.labels(body, communicator),
+      known_pieces.planes(body, planes, within * body.kernel.mean_spacing()),
+      planes, communicator);
 }
 
 void SpgViews::list_memory(MemoryTable &table) const
@@ -114,6 +114,7 @@ void SpgViews::list_memory(MemoryTable &table) const
   body.stable_step.list_memory(table);
   body.kernel.list_memory(table);
   surface.list_memory(table);
+  known_pieces.list_memory(table);
   if (body.reaction)
     body.reaction->list_memory(table);
   table.add("rank of every particle of the body", rank_of);

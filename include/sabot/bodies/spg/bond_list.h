@@ -158,6 +158,9 @@ public:
     data.resize(n_with_ghosts());
   }
 
+  /** How often bonds came or went so far; the same on all ranks. */
+  std::size_t n_changes() const { return changes; }
+
   /** All arrays have been carried: forget where bonds were. */
   void settle() { std::vector<std::uint32_t>().swap(origin); }
 
@@ -253,6 +256,7 @@ private:
   std::vector<int> owner_of_ghost;
   GlobalIndex n_total = 0;
   std::size_t n_owned = 0;
+  std::size_t changes = 0;
   MPI_Comm communicator = MPI_COMM_SELF;
   MirroredExchange exchange;
   const MirrorPlanes *mirror = nullptr; // null: there are no images
