@@ -55,10 +55,9 @@ DebrisView SpgViews::debris() const
 bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j) const
 {
   const BondList &bonds = body.bonds;
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    if (body.nodes.global_id[bonds.neighbor[b]] == j)
-      return body.failure.is_cohesive(i, bonds.neighbor[b]);
-  return false;
+  const std::size_t b = bonds.first_from(i, j);
+  return b < bonds.end(i) && body.nodes.global_id[bonds.neighbor[b]] == j &&
+         body.failure.is_cohesive(i, bonds.neighbor[b]);
 }
 
 bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j,
@@ -68,11 +67,12 @@ bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j,
   const double tolerance = round_off * body.kernel.mean_spacing();
   const BondList &bonds = body.bonds;
   const NodalState &nodes = body.nodes;
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+  // Images stand behind the particles.
+  for (std::size_t b = bonds.first_from(i, MirrorPlanes::image(0, 1));
+       b < bonds.end(i); ++b)
   {
     const std::uint32_t other = bonds.neighbor[b];
-    if (MirrorPlanes::symmetry_of(nodes.global_id[other]) != 0 &&
-        MirrorPlanes::particle_of(nodes.global_id[other]) == j &&
+    if (MirrorPlanes::particle_of(nodes.global_id[other]) == j &&
         norm(nodes.position[other] - place) < tolerance)
       return body.failure.is_cohesive(i, other);
   }

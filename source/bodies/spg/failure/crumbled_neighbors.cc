@@ -312,12 +312,16 @@ BondList::Rows renew_crumbled_neighbors(const NodalState &nodes,
       gather_crumbs(nodes, failure, mirror, reach, communicator), reach, nodes);
   BondList::Rows rows;
   rows.reserve(nodes.n_owned, bonds.capacity());
+  const std::vector<std::uint32_t> &marked = failure.marked_rows();
+  auto with_marks = marked.begin();
   std::vector<GlobalIndex> kept;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
+    const bool has_marks = with_marks != marked.end() && *with_marks == i;
+    with_marks += has_marks;
     kept.clear();
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (!failure.has_failed_now(b) &&
+      if (!(has_marks && failure.has_failed_now(b)) &&
           failure.is_cohesive(i, bonds.neighbor[b]))
         kept.push_back(nodes.global_id[bonds.neighbor[b]]);
     rows.merge_and_end_row(kept, near.begin(i), near.end(i));

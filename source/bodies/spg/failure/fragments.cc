@@ -199,7 +199,7 @@ std::vector<unsigned int> planes_of_particles(
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
     bits[i] = planes_at(nodes.reference_position[i], planes, tolerance);
   const std::size_t first_image = nodes.size() - nodes.n_images;
-  for (std::size_t i = 0; i < nodes.n_owned && nodes.n_images > 0; ++i)
+  for (const std::uint32_t i : bonds.rows_at_ghosts())
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
