@@ -124,12 +124,12 @@ void SelfContact::find_pairs()
             return;
           const double distance = std::sqrt(square);
           const ParticleView &view = *bodies[a.body]->particles();
-          if (a.body == b.body &&
+          const bool are_continuous =
+              a.body == b.body && from.is_continuous && to.is_continuous;
+          if (a.body == b.body && !are_continuous &&
               (other.image == 0 ? view.are_bonded(from.local, b.node)
                                 : view.are_bonded(from.local, b.node, other.x)))
             return;
-          const bool are_continuous =
-              a.body == b.body && from.is_continuous && to.is_continuous;
           const int n_planes = images.n_common_planes(from, to);
           if (are_continuous && n_planes > 1)
             return; // pieces in a file buckle, though planes keep them in line
