@@ -81,7 +81,7 @@ TEST(KernelUpdate, bonds_are_found_by_the_numbers_of_their_ends)
       EXPECT_EQ(view.are_bonded(i, j), neighbors.count(j) == 1);
   }
   EXPECT_EQ(at_ghosts, bonds.rows_at_ghosts());
-  EXPECT_GT(at_ghosts.size(), n.n_owned / 2);
+  EXPECT_GT(at_ghosts.size(), n.n_owned / 4);
   EXPECT_LT(at_ghosts.size(), n.n_owned);
 }
 
