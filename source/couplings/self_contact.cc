@@ -4,10 +4,11 @@
 #include "sabot/couplings/contact_search.h"
 #include "sabot/couplings/mirror_images.h"
 #include "sabot/couplings/node_table.h"
-#include "sabot/kernels/point_buckets.h"
+#include "sabot/kernels/sorted_points.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace sabot
 {
@@ -18,6 +19,53 @@ namespace
  */
 constexpr double core_distance = 0.5;
 
+/** Numbers of the items near each of some of them, in no order. */
+class NearItems
+{
+public:
+  /** Those at most @p reach [m] away, and maybe some by round-off farther;
+      @p asks(item): whether its own are wanted. */
+  template <typename Asks>
+  NearItems(const std::vector<DebrisImages::Item> &items, const double reach,
+            const Asks &asks)
+  {
+    constexpr double round_off = 1. + 1e-9;
+    std::vector<Row> all(items.size());
+    SortedPoints(
+        items.size(), [&](const std::size_t k) { return items[k].x; },
+        round_off * reach)
+        .for_each([&](const std::uint32_t k) { return asks(items[k]); },
+                  [&](const std::uint32_t k, const std::uint32_t *const near,
+                      const std::size_t n)
+                  {
+                    all[k] = {numbers.size(), n};
+                    numbers.insert(numbers.end(), near, near + n);
+                  });
+    for (std::size_t k = 0; k < items.size(); ++k)
+      if (asks(items[k]))
+        rows.push_back(all[k]);
+  }
+  struct Range
+  {
+    const std::uint32_t *first, *last;
+    const std::uint32_t *begin() const { return first; }
+    const std::uint32_t *end() const { return last; }
+  };
+  /** Of the one that asks as the @p number-th. */
+  Range of(const std::size_t number) const
+  {
+    const std::uint32_t *const first = numbers.data() + rows[number].start;
+    return {first, first + rows[number].n};
+  }
+
+private:
+  struct Row
+  {
+    std::size_t start = 0, n = 0;
+  };
+  std::vector<Row> rows;
+  std::vector<std::uint32_t> numbers;
+};
 } // namespace
 
 SelfContact::SelfContact(const std::string &name,
@@ -90,61 +138,63 @@ void SelfContact::find_pairs()
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
+  const auto is_mine = [&](const NodeKey &key)
+  { return bodies[key.body]->node_owner[key.node] == rank; };
   Debris debris(bodies, body_pairs);
   const double reach = options.contact_distance * debris.largest_spacing + skin;
   debris.gather_near(images, reach, communicator);
   n_loose = debris.n_all;
   const std::vector<LooseParticle> &near = debris.near;
   const std::vector<DebrisImages::Item> items = images.with_images(near, reach);
-  PointBuckets buckets(reach);
-  for (std::size_t k = 0; k < items.size(); ++k)
-    buckets.add(items[k].x, k);
+  const NearItems near_items(items, reach,
+                             [&](const DebrisImages::Item &item) {
+                               return item.image == 0 &&
+                                      is_mine(near[item.number].key);
+                             });
   std::vector<Pair> found;
   found.reserve(pairs.size() + pairs.size() / 8);
+  std::size_t number = 0;
   for (const LooseParticle &from : debris.mine)
   {
     const NodeKey &a = from.key;
     const std::size_t first_found = found.size();
     const std::uint64_t images_of_a = images.near(a.body, from.x, reach);
-    buckets.for_near(
-        from.x,
-        [&](const std::size_t k)
-        {
-          const DebrisImages::Item &other = items[k];
-          const double square = norm_square(other.x - from.x);
-          if (square > reach * reach)
-            return;
-          const LooseParticle &to = near[other.number];
-          const NodeKey &b = to.key;
-          // A pair owned here twice is kept once.
-          if (b < a && bodies[b.body]->node_owner[b.node] == rank)
-            return;
-          if (!debris.may_meet(a, b) || (a == b && other.image == 0) ||
-              (other.image & ~images_of_a))
-            return;
-          const double distance = std::sqrt(square);
-          const ParticleView &view = *bodies[a.body]->particles();
-          if (a.body == b.body &&
-              (other.image == 0 ? view.are_bonded(from.local, b.node)
-                                : view.are_bonded(from.local, b.node, other.x)))
-            return;
-          const bool are_continuous =
-              a.body == b.body && from.is_continuous && to.is_continuous;
-          const int n_planes = images.n_common_planes(from, to);
-          if (are_continuous && n_planes > 1)
-            return; // pieces in a file buckle, though planes keep them in line
-          // Where their continuum bears the pressure, they only must not pass
-          // through each other where it is loose.
-          const double core =
-              are_continuous ? core_distance : options.contact_distance;
-          found.push_back(make_pair(a, b, other.image, distance, core,
-                                    debris.views[a.body],
-                                    debris.views[b.body]));
-          const double share = std::ldexp(1., -n_planes);
-          found.back().stiffness *= share;
-          found.back().area *= share;
-          found.back().largest_friction *= share;
-        });
+    for (const std::uint32_t k : near_items.of(number++))
+    {
+      const DebrisImages::Item &other = items[k];
+      const double square = norm_square(other.x - from.x);
+      if (square > reach * reach)
+        continue;
+      const LooseParticle &to = near[other.number];
+      const NodeKey &b = to.key;
+      // A pair owned here twice is kept once.
+      if (b < a && is_mine(b))
+        continue;
+      if (!debris.may_meet(a, b) || (a == b && other.image == 0) ||
+          (other.image & ~images_of_a))
+        continue;
+      const double distance = std::sqrt(square);
+      const ParticleView &view = *bodies[a.body]->particles();
+      const bool are_continuous =
+          a.body == b.body && from.is_continuous && to.is_continuous;
+      if (a.body == b.body && !are_continuous &&
+          (other.image == 0 ? view.are_bonded(from.local, b.node)
+                            : view.are_bonded(from.local, b.node, other.x)))
+        continue;
+      const int n_planes = images.n_common_planes(from, to);
+      if (are_continuous && n_planes > 1)
+        continue; // pieces in a file buckle, though planes keep them in line
+      // Where their continuum bears the pressure, they only must not pass
+      // through each other where it is loose.
+      const double core =
+          are_continuous ? core_distance : options.contact_distance;
+      found.push_back(make_pair(a, b, other.image, distance, core,
+                                debris.views[a.body], debris.views[b.body]));
+      const double share = std::ldexp(1., -n_planes);
+      found.back().stiffness *= share;
+      found.back().area *= share;
+      found.back().largest_friction *= share;
+    }
     std::sort(found.begin() + first_found, found.end(), comes_before);
   }
   // In order already, but for pairs whose first one another rank owns.

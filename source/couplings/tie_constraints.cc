@@ -1,6 +1,8 @@
 // Which nodes a tie holds, and by what weights.
 #include "sabot/couplings/tie.h"
 
+#include "sabot/couplings/box_buckets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -190,31 +192,62 @@ bool is_near(const FaceRecord &face, const Vec x, const double margin)
   return true;
 }
 
-/** The face closest to @p x, closer than @p distance, which is then set; null
-    where there is none. Of faces that are equally near (to @p touching) the
-    first wins, in global order. */
-const FaceRecord *closest_face(const std::vector<FaceRecord> &faces,
-                               const Vec x, const double touching,
-                               double &distance,
-                               std::array<double, 4> &face_weight)
+/** Faces by the boxes around them, for followers within @p reach [m]. */
+class FacesByPlace
 {
-  const double reach = distance;
-  const FaceRecord *on = nullptr;
-  for (const FaceRecord &face : faces)
+public:
+  /** @p size: about that of a face [m]. */
+  FacesByPlace(const std::vector<FaceRecord> &faces, const double reach,
+               const double size)
+      : faces(faces), reach(reach), buckets(boxes_of(faces, reach), size)
   {
-    if (!is_near(face, x, reach))
-      continue;
-    std::array<double, 4> weight;
-    const double here = project(face, x, weight);
-    if (here < distance - (on ? touching : 0.))
-    {
-      distance = here;
-      on = &face;
-      face_weight = weight;
-    }
   }
-  return on;
-}
+  /** The face closest to @p x and closer than the reach, with its distance;
+     null where there is none. Of faces that are equally near (to @p touching)
+     the first wins, in global order. */
+  const FaceRecord *closest(const Vec x, const double touching,
+                            double &distance,
+                            std::array<double, 4> &face_weight) const
+  {
+    distance = reach;
+    const FaceRecord *on = nullptr;
+    const auto near = buckets.find(x);
+    for (const std::int32_t *f = near.first; f != near.second; ++f)
+    {
+      const FaceRecord &face = faces[*f];
+      if (!is_near(face, x, reach))
+        continue;
+      std::array<double, 4> weight;
+      const double here = project(face, x, weight);
+      if (here < distance - (on ? touching : 0.))
+      {
+        distance = here;
+        on = &face;
+        face_weight = weight;
+      }
+    }
+    return on;
+  }
+
+private:
+  static std::vector<Box> boxes_of(const std::vector<FaceRecord> &faces,
+                                   const double reach)
+  {
+    constexpr double round_off = 1e-3; // is_near() decides
+    std::vector<Box> boxes(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+    {
+      for (const Vec x : faces[f].x)
+        boxes[f].add(x);
+      boxes[f].inflate((1. + round_off) * reach);
+    }
+    return boxes;
+  }
+
+  const std::vector<FaceRecord> &faces;
+  const double reach;
+  const BoxBuckets buckets;
+};
 } // namespace
 
 void Tie::use_face(Constraint &constraint)
@@ -270,14 +303,16 @@ std::vector<Tie::Constraint> Tie::find_constraints() const
   const NodalState &followers = bodies[follower]->nodes();
   const ContactSurface open = bodies[follower]->contact_surface();
   const double reach = tolerance * open.spacing, touching = 1e-9 * open.spacing;
+  const FacesByPlace near(
+      faces, reach, bodies[leader]->contact_surface().spacing + 2. * reach);
   std::vector<Constraint> mine;
   for (std::size_t i = 0; i < followers.n_owned; ++i)
   {
     const Vec x = followers.reference_position[i];
-    double distance = reach;
+    double distance;
     Constraint constraint{};
     const FaceRecord *const on =
-        closest_face(faces, x, touching, distance, constraint.face_weight);
+        near.closest(x, touching, distance, constraint.face_weight);
     if (on == nullptr)
       continue;
     constraint.follower = followers.global_id[i];

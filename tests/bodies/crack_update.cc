@@ -1,5 +1,6 @@
 // What bonds that fail between kernel updates change, and what they leave.
 #include "sabot/base/choice.h"
+#include "sabot/bodies/spg/failure/fragments.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "verification/balance.h"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 namespace
 {
@@ -204,5 +206,39 @@ TEST(CrackUpdate, kernels_follow_at_regular_updates)
     ASSERT_EQ(norm(rooms.fields.kernel_reference_position[i] -
                    rooms.nodes.position[i]),
               0.);
+}
+
+/** Labels found anew. */
+std::vector<GlobalIndex> labels_of(const SpgParts &rooms)
+{
+  return fragment_labels(rooms.nodes, rooms.bonds, rooms.failure,
+                         rooms.exchange, MPI_COMM_SELF);
+}
+
+TEST(CrackUpdate, pieces_are_those_of_the_present_bonds)
+{
+  for (const char *const rule : {"friction", "everything"})
+  {
+    CrackingBlock block(5e-6, rule);
+    const SpgParts &rooms = block.rooms();
+    const FragmentView &pieces = *block.body->fragments();
+    std::vector<GlobalIndex> before = pieces.piece_labels();
+    EXPECT_EQ(before, labels_of(rooms)) << rule;
+    EXPECT_EQ(pieces.connected_pieces().size(), 1u) << rule;
+    for (const unsigned int step : {5u, 30u}) // cracks alone, and all kernels
+    {
+      ASSERT_TRUE(block.body->update_topology(step, 0.));
+      EXPECT_NE(pieces.piece_labels(), before) << rule << step;
+      before = pieces.piece_labels();
+      EXPECT_EQ(before, labels_of(rooms)) << rule << step;
+      EXPECT_EQ(pieces.connected_pieces().size(),
+                std::set<GlobalIndex>(before.begin(), before.end()).size())
+          << rule << step;
+      // Another part becomes brittle.
+      for (std::size_t i = 0; i < rooms.nodes.n_owned; ++i)
+        if (std::abs(rooms.nodes.reference_position[i][0] - 4e-3) < 0.6e-3)
+          rooms.points.state("effective plastic strain")[i] = 1.;
+    }
+  }
 }
 } // namespace

@@ -2,6 +2,7 @@
 #include "sabot/base/choice.h"
 #include "sabot/bodies/spg/bond_rows.h"
 #include "sabot/bodies/spg/failure/gaping_volume.h"
+#include "sabot/bodies/spg/mirror_planes.h"
 #include "sabot/bodies/spg/stabilization/stabilization.h"
 #include "sabot/bodies/spg/stable_step.h"
 #include "sabot/bodies/spg/stiffness_bound.h"
@@ -41,6 +42,49 @@ TEST(KernelUpdate, places_of_global_numbers)
     }
 }
 
+TEST(KernelUpdate, bonds_are_found_by_the_numbers_of_their_ends)
+{
+  World world;
+  SpgOptions options;
+  options.symmetry_faces = 0b000101; // a corner of two planes
+  world.bodies.push_back(std::make_unique<SpgBody>(
+      "block", 0, make_box_cloud({{0, 0, 0}}, {{5e-3, 4e-3, 3e-3}}, 1e-3),
+      hardening_aluminum(), options));
+  world.distribute();
+  auto &body = static_cast<SpgBody &>(*world.bodies[0]);
+  const BondList &bonds = body.rooms().bonds;
+  const NodalState &n = body.nodes();
+  const ParticleView &view = *body.particles();
+  std::vector<std::uint32_t> at_ghosts;
+  for (std::size_t i = 0; i < n.n_owned; ++i)
+  {
+    std::set<GlobalIndex> neighbors;
+    for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+    {
+      const std::uint32_t j = bonds.neighbor[b];
+      const GlobalIndex id = n.global_id[j];
+      EXPECT_EQ(bonds.first_from(i, id), b);
+      EXPECT_EQ(bonds.first_from(i, id + 1), b + 1);
+      if (j < n.n_owned)
+      {
+        neighbors.insert(id);
+        continue;
+      }
+      if (at_ghosts.empty() || at_ghosts.back() != i)
+        at_ghosts.push_back(i);
+      const GlobalIndex particle = MirrorPlanes::particle_of(id);
+      EXPECT_TRUE(view.are_bonded(i, particle, n.position[j]));
+      EXPECT_FALSE(
+          view.are_bonded(i, particle, n.position[j] + vec(3e-4, 0., 0.)));
+    }
+    for (std::size_t j = 0; j < n.n_owned; ++j)
+      EXPECT_EQ(view.are_bonded(i, j), neighbors.count(j) == 1);
+  }
+  EXPECT_EQ(at_ghosts, bonds.rows_at_ghosts());
+  EXPECT_GT(at_ghosts.size(), n.n_owned / 4);
+  EXPECT_LT(at_ghosts.size(), n.n_owned);
+}
+
 TEST(KernelUpdate, rows_are_sorted_and_merged)
 {
   BondRows rows;
@@ -50,10 +94,11 @@ TEST(KernelUpdate, rows_are_sorted_and_merged)
   rows.end_row();
   const GlobalIndex more[] = {2, 9};
   rows.merge_and_end_row({1, 4}, more, more + 2);
-  ASSERT_EQ(rows.size(), 3u);
+  rows.merge_and_end_row({3, 8}, more, more);
+  ASSERT_EQ(rows.size(), 4u);
   const std::vector<std::vector<GlobalIndex>> expected = {
-      {1, 3, 5}, {}, {1, 2, 4, 9}};
-  for (std::size_t i = 0; i < 3; ++i)
+      {1, 3, 5}, {}, {1, 2, 4, 9}, {3, 8}};
+  for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(std::vector<GlobalIndex>(rows[i].begin(), rows[i].end()),
               expected[i]);
 }

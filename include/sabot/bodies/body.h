@@ -118,7 +118,8 @@ struct DebrisView
 {
   std::vector<std::size_t> nodes; // owned, ascending
   /** Of each of them, whether it is part of crumbled metal that its body keeps
-      a continuum: such pairs bear pressure already. Empty: none is. */
+      a continuum: such pairs bear pressure already, and no bond between two of
+      them holds by itself. Empty: none is. */
   std::vector<char> is_continuous;
   double bulk_modulus = 0.; // [Pa]
   double spacing = 0.;      // [m]

@@ -44,12 +44,12 @@ struct Box
   /** From @p x to the closest point of the box, squared; 0 inside [m^2]. */
   double distance_square(const Vec x) const
   {
+    const Vec below = low - x, above = x - high, zero = {};
+    Vec away = below > above ? below : above;
+    away = away > zero ? away : zero;
     double square = 0.;
     for (int d = 0; d < 3; ++d)
-    {
-      const double away = std::max({0., low[d] - x[d], x[d] - high[d]});
-      square += away * away;
-    }
+      square += away[d] * away[d];
     return square;
   }
   /** Largest gap along an axis [m]; negative where the boxes overlap. Bodies

@@ -201,7 +201,6 @@ void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
   std::vector<std::uint32_t>().swap(reverse);
   const std::size_t n_rows = rows.size();
   const bool is_first = neighbor.empty();
-  const bool has_all = n_rows == static_cast<std::size_t>(n_global);
   const NumberIndex of_owned(global_id.data(), n_rows),
       of_ghost(global_id.data() + n_rows, global_id.size() - n_rows);
   std::vector<std::size_t> new_start(n_rows + 1, 0);
@@ -223,7 +222,7 @@ void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
         ++old;
       if (old < last && id[neighbor[old]] == j)
         new_origin[bond] = old;
-      const std::size_t place = has_all && j < n_global ? j : of_owned(j);
+      const std::size_t place = of_owned(j);
       new_neighbor[bond] = place < n_rows ? place : n_rows + of_ghost(j);
       ++bond;
     }
@@ -232,6 +231,7 @@ void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
       new_neighbor[bond] = i;
   }
   rows = Rows();
+  ++changes;
   communicator = comm;
   id = global_id;
   owner_of_ghost = ghost_owner;
@@ -249,10 +249,10 @@ void BondList::connect(Rows rows, const std::vector<GlobalIndex> &global_id,
 std::size_t BondList::find(const std::size_t i,
                            const GlobalIndex neighbor_id) const
 {
-  for (std::size_t b = begin(i); b < end(i); ++b)
-    if (id[neighbor[b]] == neighbor_id)
-      return b;
-  throw std::logic_error("a bond is missing at one of its ends");
+  const std::size_t b = first_from(i, neighbor_id);
+  if (b == end(i) || id[neighbor[b]] != neighbor_id)
+    throw std::logic_error("a bond is missing at one of its ends");
+  return b;
 }
 
 void BondList::reverse_owned()
@@ -286,58 +286,63 @@ void BondList::reverse_owned()
   }
 }
 
-GlobalIndex BondList::number_from(const GlobalIndex j,
-                                  const std::size_t i) const
-{
-  const unsigned int symmetry = MirrorPlanes::symmetry_of(j);
-  return symmetry == 0 ? id[i]
-                       : MirrorPlanes::image(
-                             id[i], mirror->canonical(mirror->inverse(symmetry),
-                                                      on_planes[i]));
-}
-
 void BondList::reconnect()
 {
   reverse.assign(neighbor.size() + look_ahead, 0u);
   std::iota(reverse.begin(), reverse.begin() + neighbor.size(), 0u);
   reverse_owned();
+  at_ghosts.clear();
+  for (std::size_t i = 0; i < n_owned && !owner_of_ghost.empty(); ++i)
+    if (std::any_of(neighbor.begin() + begin(i), neighbor.begin() + end(i),
+                    [this](const std::uint32_t j) { return j >= n_owned; }))
+      at_ghosts.push_back(i);
   connect_ghosts();
+}
+
+std::vector<BondList::Ghost> BondList::ghosts_and_images() const
+{
+  std::vector<Ghost> ghosts;
+  ghosts.reserve(owner_of_ghost.size());
+  for (std::size_t g = 0; g < owner_of_ghost.size(); ++g)
+  {
+    const GlobalIndex number = id[n_owned + g];
+    const unsigned int symmetry = MirrorPlanes::symmetry_of(number);
+    ghosts.push_back({MirrorPlanes::particle_of(number),
+                      symmetry == 0 ? 0 : mirror->inverse(symmetry),
+                      symmetry == 0 ? 0 : mirror->turned_axes(symmetry)});
+  }
+  return ghosts;
 }
 
 void BondList::connect_ghosts()
 {
+  const std::vector<Ghost> ghosts = ghosts_and_images();
   std::vector<int> owners;
   std::vector<GlobalIndex> keys;
   std::vector<MirroredExchange::Turned> turned;
-  for (std::size_t i = 0; i < n_owned && !owner_of_ghost.empty(); ++i)
+  for (const std::uint32_t i : at_ghosts)
     for (std::size_t b = begin(i); b < end(i); ++b)
     {
-      const std::uint32_t j = neighbor[b];
-      if (j < n_owned)
+      if (neighbor[b] < n_owned)
         continue;
+      const std::size_t g = neighbor[b] - n_owned;
+      const Ghost &ghost = ghosts[g];
       reverse[b] = neighbor.size() + owners.size();
-      const unsigned int symmetry = MirrorPlanes::symmetry_of(id[j]),
-                         axes =
-                             symmetry == 0 ? 0 : mirror->turned_axes(symmetry);
-      if (axes != 0)
-        turned.emplace_back(owners.size(), axes);
-      owners.push_back(owner_of_ghost[j - n_owned]);
+      if (ghost.turned_axes != 0)
+        turned.emplace_back(owners.size(), ghost.turned_axes);
+      owners.push_back(owner_of_ghost[g]);
       // Packed: there, seen from there, image.
-      const GlobalIndex there = MirrorPlanes::particle_of(id[j]),
-                        here = number_from(id[j], i);
-      keys.push_back((MirrorPlanes::symmetry_of(here) * n_total +
-                      MirrorPlanes::particle_of(here)) *
-                         n_total +
-                     there);
+      const GlobalIndex image_here =
+          ghost.back == 0 ? 0 : mirror->canonical(ghost.back, on_planes[i]);
+      keys.push_back((image_here * n_total + id[i]) * n_total + ghost.particle);
     }
+  const NumberIndex place(id.data(), n_owned);
   exchange = MirroredExchange(
       GhostExchange(communicator, neighbor.size(), owners, keys,
                     [&](const GlobalIndex key)
                     {
-                      const auto i = std::lower_bound(
-                          id.begin(), id.begin() + n_owned, key % n_total);
                       const GlobalIndex other = key / n_total;
-                      return find(i - id.begin(),
+                      return find(place(key % n_total),
                                   MirrorPlanes::image(other % n_total,
                                                       other / n_total));
                     }),
@@ -399,6 +404,7 @@ bool BondList::settle_removal(int has_changed)
 {
   // Bonds that go or move at a rank's border change what is exchanged.
   MPI_Allreduce(MPI_IN_PLACE, &has_changed, 1, MPI_INT, MPI_MAX, communicator);
+  changes += has_changed;
   int n_ranks;
   MPI_Comm_size(communicator, &n_ranks);
   if ((n_ranks > 1 || mirror != nullptr) && has_changed)

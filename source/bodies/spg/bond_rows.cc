@@ -9,6 +9,11 @@ void BondRows::merge_and_end_row(const std::vector<GlobalIndex> &some,
                                  const GlobalIndex *const first,
                                  const GlobalIndex *const last)
 {
+  if (first == last)
+  {
+    add(some.begin(), some.end());
+    return end_row();
+  }
   const std::size_t begin = neighbors.size();
   neighbors.resize(begin + some.size() + (last - first));
   std::merge(some.begin(), some.end(), first, last, neighbors.begin() + begin);
@@ -29,6 +34,9 @@ NumberIndex::NumberIndex(const GlobalIndex *const numbers, const std::size_t n)
   if (n == 0)
     return;
   const std::size_t range = numbers[n - 1] - numbers[0];
+  has_no_gaps = range == n - 1;
+  if (has_no_gaps)
+    return;
   while (range >> shift > 2 * n)
     ++shift;
   first.resize((range >> shift) + 1);

@@ -55,10 +55,9 @@ DebrisView SpgViews::debris() const
 bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j) const
 {
   const BondList &bonds = body.bonds;
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-    if (body.nodes.global_id[bonds.neighbor[b]] == j)
-      return body.failure.is_cohesive(i, bonds.neighbor[b]);
-  return false;
+  const std::size_t b = bonds.first_from(i, j);
+  return b < bonds.end(i) && body.nodes.global_id[bonds.neighbor[b]] == j &&
+         body.failure.is_cohesive(i, bonds.neighbor[b]);
 }
 
 bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j,
@@ -68,11 +67,12 @@ bool SpgViews::are_bonded(const std::size_t i, const GlobalIndex j,
   const double tolerance = round_off * body.kernel.mean_spacing();
   const BondList &bonds = body.bonds;
   const NodalState &nodes = body.nodes;
-  for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
+  // Images stand behind the particles.
+  for (std::size_t b = bonds.first_from(i, MirrorPlanes::image(0, 1));
+       b < bonds.end(i); ++b)
   {
     const std::uint32_t other = bonds.neighbor[b];
-    if (MirrorPlanes::symmetry_of(nodes.global_id[other]) != 0 &&
-        MirrorPlanes::particle_of(nodes.global_id[other]) == j &&
+    if (MirrorPlanes::particle_of(nodes.global_id[other]) == j &&
         norm(nodes.position[other] - place) < tolerance)
       return body.failure.is_cohesive(i, other);
   }
@@ -89,17 +89,17 @@ std::size_t SpgViews::n_bonds() const
 
 std::vector<GlobalIndex> SpgViews::piece_labels() const
 {
-  return fragment_labels(body.nodes, body.bonds, body.failure, body.exchange,
-                         communicator);
+  return known_pieces.labels(body, communicator);
 }
 
 std::vector<Fragment> SpgViews::connected_pieces() const
 {
   constexpr double within = 1e-3; // of a spacing; particles are one apart
+  const std::vector<SymmetryPlane> &planes = surface.planes();
   return find_fragments(
-      body.nodes, piece_labels(),
-      planes_crossed(body.nodes, body.bonds, body.failure, surface.planes()),
-      surface.planes(), within * body.kernel.mean_spacing(), communicator);
+      body.nodes, known_pieces.labels(body, communicator),
+      known_pieces.planes(body, planes, within * body.kernel.mean_spacing()),
+      planes, communicator);
 }
 
 void SpgViews::list_memory(MemoryTable &table) const
@@ -114,6 +114,7 @@ void SpgViews::list_memory(MemoryTable &table) const
   body.stable_step.list_memory(table);
   body.kernel.list_memory(table);
   surface.list_memory(table);
+  known_pieces.list_memory(table);
   if (body.reaction)
     body.reaction->list_memory(table);
   table.add("rank of every particle of the body", rank_of);

@@ -188,9 +188,10 @@ std::vector<char> owned_near(const SpgParts &body,
   // Ghosts cannot.
   const bool any_ghost =
       std::find(marked.begin() + n, marked.end(), 1) != marked.end();
-  for (std::size_t i = 0; i < n && any_ghost; ++i)
-    for (std::size_t b = bonds.begin(i); b < bonds.end(i) && !near[i]; ++b)
-      near[i] = bonds.neighbor[b] >= n && marked[bonds.neighbor[b]];
+  if (any_ghost)
+    for (const std::uint32_t i : bonds.rows_at_ghosts())
+      for (std::size_t b = bonds.begin(i); b < bonds.end(i) && !near[i]; ++b)
+        near[i] = bonds.neighbor[b] >= n && marked[bonds.neighbor[b]];
   std::fill(near.begin() + n, near.begin() + n_local, 0);
   return near;
 }

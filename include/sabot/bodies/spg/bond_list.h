@@ -158,6 +158,12 @@ public:
     data.resize(n_with_ghosts());
   }
 
+  /** Owned particles that had bonds to ghosts or images when they were last
+      connected, ascending; bonds may have gone since. */
+  const std::vector<std::uint32_t> &rows_at_ghosts() const { return at_ghosts; }
+  /** How often bonds came or went so far; the same on all ranks. */
+  std::size_t n_changes() const { return changes; }
+
   /** All arrays have been carried: forget where bonds were. */
   void settle() { std::vector<std::uint32_t>().swap(origin); }
 
@@ -171,6 +177,7 @@ public:
     table.add("rows of bonds: starts", row_start);
     table.add("rows of bonds: lengths", count);
     table.add("rows of bonds: node numbers", id);
+    table.add("rows of bonds: at ghosts", at_ghosts);
   }
 
   std::size_t begin(const std::size_t i) const { return row_start[i]; }
@@ -179,6 +186,16 @@ public:
   std::size_t packed_end(const std::size_t i) const
   {
     return row_start[i] + packed(count[i]);
+  }
+  /** Of owned particle i the first bond to a neighbor of this global number or
+      of a larger one, or end(i). */
+  std::size_t first_from(const std::size_t i, const GlobalIndex number) const
+  {
+    return std::lower_bound(neighbor.begin() + begin(i),
+                            neighbor.begin() + end(i), number,
+                            [this](const std::uint32_t j, const GlobalIndex n)
+                            { return id[j] < n; }) -
+           neighbor.begin();
   }
   /** Bonds of owned particle i that have not failed. */
   std::size_t n_bonds(const std::size_t i) const { return count[i]; }
@@ -232,9 +249,13 @@ private:
   /** reverse[] of bonds between owned particles. Throws std::logic_error where
       the two ends do not agree. */
   void reverse_owned();
-  /** Number by which ghost or image @p j knows its neighbor that is owned
-      particle @p i. */
-  GlobalIndex number_from(const GlobalIndex j, const std::size_t i) const;
+  /** What bonds to one ghost or image have in common. */
+  struct Ghost
+  {
+    GlobalIndex particle;
+    unsigned int back, turned_axes; // the symmetry that undoes its own, 0: none
+  };
+  std::vector<Ghost> ghosts_and_images() const;
   /** Bond of owned particle i to the neighbor with this global number.
       Throws std::logic_error where there is none: the two ends must agree. */
   std::size_t find(const std::size_t i, const GlobalIndex neighbor_id) const;
@@ -251,8 +272,10 @@ private:
   std::vector<std::uint32_t> origin;
   std::vector<GlobalIndex> id; // global numbers of local particles
   std::vector<int> owner_of_ghost;
+  std::vector<std::uint32_t> at_ghosts; // see rows_at_ghosts()
   GlobalIndex n_total = 0;
   std::size_t n_owned = 0;
+  std::size_t changes = 0;
   MPI_Comm communicator = MPI_COMM_SELF;
   MirroredExchange exchange;
   const MirrorPlanes *mirror = nullptr; // null: there are no images

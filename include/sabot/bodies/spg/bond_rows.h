@@ -76,6 +76,8 @@ public:
   {
     if (n == 0 || j < numbers[0] || j > numbers[n - 1])
       return n;
+    if (has_no_gaps)
+      return j - numbers[0];
     const std::size_t entry = (j - numbers[0]) >> shift;
     // Images of a few particles may share one entry.
     const GlobalIndex *const at = std::lower_bound(
@@ -87,6 +89,7 @@ public:
 private:
   const GlobalIndex *const numbers;
   const std::size_t n;
+  bool has_no_gaps = false; // as those of one rank alone
   unsigned int shift = 0;
   std::vector<std::uint32_t> first; // at or after this multiple of 2^shift
 };

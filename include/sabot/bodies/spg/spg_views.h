@@ -3,6 +3,7 @@
 
 #include "sabot/base/memory_table.h"
 #include "sabot/bodies/body.h"
+#include "sabot/bodies/spg/failure/known_pieces.h"
 #include "sabot/bodies/spg/particle_surface.h"
 #include "sabot/bodies/spg/spg_parts.h"
 
@@ -19,7 +20,8 @@ class Stabilization;
  * a volume without faces and cells, what has come loose, and the pieces that
  * bonds still hold together. Doc of the functions: body.h.
  *
- * Nothing is stored: each answer is made from the body's present state.
+ * Each answer is made from the body's present state; nothing is stored but the
+ * pieces, which are kept until bonds change.
  * References only, so it must not outlive the body.
  */
 class SpgViews : public ParticleView, public FragmentView, public MemoryView
@@ -68,6 +70,7 @@ private:
   const Stabilization &form;
   const std::vector<int> &rank_of;
   const MPI_Comm &communicator;
+  mutable KnownPieces known_pieces; // a copy of what the body's state says
 };
 } // namespace sabot
 

@@ -123,6 +123,7 @@ void BondFailure::count(const NodalState &nodes, const BondList &bonds,
   // Updates without a look before them find no marks.
   is_marked.resize(bonds.capacity(), 0);
   crumbles.resize(nodes.n_owned, 0);
+  ++changes;
   // A bond fails once, whether it goes or stays without cohesion.
   const std::vector<char> before = crumbled;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
@@ -184,6 +185,7 @@ bool BondFailure::renews_crumbled(MPI_Comm communicator) const
 void BondFailure::renew_ghosts(const ParticleExchange &exchange,
                                const std::size_t n_local)
 {
+  ++changes;
   crumbled.resize(n_local);
   if (joins_crumbled)
     exchange.update(crumbled.data());
@@ -234,6 +236,7 @@ void BondFailure::visit_failed_pairs(StateVisitor &visitor,
 
 void BondFailure::visit_state(StateVisitor &visitor, const StateItems &items)
 {
+  changes += visitor.is_restoring();
   visitor.visit_items("failed bonds", n_failed, items);
   if (remembers_pairs)
     visit_failed_pairs(visitor, items);

@@ -6,7 +6,7 @@
 #include "sabot/bodies/spg/approximation/lagrangian_kernel.h"
 #include "sabot/bodies/spg/failure/bond_failure.h"
 #include "sabot/bodies/spg/mirror_planes.h"
-#include "sabot/kernels/pack_math.h"
+#include "sabot/kernels/sorted_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,122 +119,6 @@ std::vector<Crumb> gather_crumbs(const NodalState &nodes,
             [](const Crumb &a, const Crumb &b) { return a.id < b.id; });
   return near;
 }
-/** Crumbs in the order of the cubes of edge @p reach [m] in which they lie.
-    Cubes are numbered from the lowest corner, x first, so that those beside one
-    along x are one stretch of the list, and where it is goes up from cube to
-    cube: a search without tables. */
-class SortedCrumbs
-{
-public:
-  SortedCrumbs(const std::vector<Crumb> &crumbs, const double reach)
-      : reach(reach), order(crumbs.size())
-  {
-    Vec low = {1e300, 1e300, 1e300, 0.};
-    for (const Crumb &crumb : crumbs)
-      for (int d = 0; d < 3; ++d)
-        low[d] = std::min(low[d], crumb.x[d]);
-    for (std::size_t k = 0; k < crumbs.size(); ++k)
-    {
-      // From 1 on; farther than a million cubes all are in the last one.
-      std::int64_t cube = 0;
-      for (int d = 2; d >= 0; --d)
-      {
-        const double from_low = (crumbs[k].x[d] - low[d]) / reach;
-        cube = (cube << bits) +
-               static_cast<std::int64_t>(1. + std::min(from_low, 1e6));
-      }
-      order[k] = {cube, static_cast<std::uint32_t>(k)};
-    }
-    std::sort(order.begin(), order.end());
-    // Behind the last one stands what is far from all.
-    for (int d = 0; d < 3; ++d)
-      x[d].resize(order.size() + n_wide, 1e150);
-    number.resize(order.size() + n_wide);
-    for (std::size_t place = 0; place < order.size(); ++place)
-    {
-      number[place] = order[place].second;
-      for (int d = 0; d < 3; ++d)
-        x[d][place] = crumbs[number[place]].x[d];
-    }
-  }
-
-  /** Call @p visit(k, near, n) for every crumb k with the n crumbs closer to it
-      than the reach, itself among them, in no order. */
-  template <typename Visit>
-  void for_each(const Visit &visit) const
-  {
-    std::size_t first[9] = {}, last[9] = {};
-    std::vector<std::uint32_t> near;
-    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end)
-    {
-      const std::int64_t cube = order[begin].first;
-      while (end < order.size() && order[end].first == cube)
-        ++end;
-      std::size_t n_candidates = 0;
-      for (int side = 0; side < 9; ++side)
-      {
-        const std::int64_t middle =
-            cube + (side % 3 - 1) * step(1) + (side / 3 - 1) * step(2);
-        advance(first[side], middle - 1);
-        last[side] = std::max(last[side], first[side]);
-        advance(last[side], middle + 2);
-        n_candidates += last[side] - first[side];
-      }
-      near.resize(n_candidates + n_wide);
-      for (std::size_t place = begin; place < end; ++place)
-      {
-        std::size_t n = 0;
-        for (int side = 0; side < 9; ++side)
-          n = collect(place, first[side], last[side], near.data(), n);
-        visit(order[place].second, near.data(), n);
-      }
-    }
-  }
-
-private:
-  static constexpr int bits = 21;
-  /** Between cubes that are neighbors along y (1) or z (2). */
-  static std::int64_t step(const int axis)
-  {
-    return std::int64_t(1) << bits * axis;
-  }
-  /** To the first crumb in this cube or behind it. */
-  void advance(std::size_t &place, const std::int64_t cube) const
-  {
-    while (place < order.size() && order[place].first < cube)
-      ++place;
-  }
-  /** Append those of [first, last) that are near to @p near, which has n, and
-      room for a pack more. */
-  std::size_t collect(const std::size_t place, const std::size_t first,
-                      const std::size_t last, std::uint32_t *const near,
-                      std::size_t n) const
-  {
-    const double x0 = x[0][place], y0 = x[1][place], z0 = x[2][place];
-    for (std::size_t k = first; k < last; k += n_wide)
-    {
-      const WidePack dx = load_wide(&x[0][k]) - x0,
-                     dy = load_wide(&x[1][k]) - y0,
-                     dz = load_wide(&x[2][k]) - z0;
-      const WideMask is_near = dx * dx + dy * dy + dz * dz < reach * reach;
-      if (!any_of(is_near))
-        continue;
-      const std::size_t n_lanes = std::min(n_wide, last - k);
-      for (std::size_t lane = 0; lane < n_lanes; ++lane)
-      {
-        near[n] = number[k + lane];
-        n -= is_near[lane];
-      }
-    }
-    return n;
-  }
-
-  const double reach;
-  std::vector<std::pair<std::int64_t, std::uint32_t>> order; // cube, number
-  // In this order
-  std::vector<double> x[3];
-  std::vector<std::uint32_t> number;
-};
 
 /** Pairs of crumbs that are near each other, of this rank's ones. Row by row of
     the nodes, crumbs by number: where every crumb tells its neighbors of itself
@@ -258,21 +142,20 @@ public:
     // By the neighbor: who has it. Then row by row.
     std::vector<std::size_t> begin_of(all.size() + 1, 0);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs; // row, neighbor
-    SortedCrumbs(all, reach)
-        .for_each(
-            [&](const std::uint32_t k, const std::uint32_t *const near,
-                const std::size_t n)
-            {
-              if (local[k] == not_owned)
-                return;
-              for (std::size_t m = 0; m < n; ++m)
-                if (near[m] != k)
-                {
-                  pairs.push_back({local[k], near[m]});
-                  ++begin_of[near[m] + 1];
-                  ++start[local[k] + 1];
-                }
-            });
+    SortedPoints(
+        all.size(), [&](const std::size_t k) { return all[k].x; }, reach)
+        .for_each([&](const std::uint32_t k) { return local[k] != not_owned; },
+                  [&](const std::uint32_t k, const std::uint32_t *const near,
+                      const std::size_t n)
+                  {
+                    for (std::size_t m = 0; m < n; ++m)
+                      if (near[m] != k)
+                      {
+                        pairs.push_back({local[k], near[m]});
+                        ++begin_of[near[m] + 1];
+                        ++start[local[k] + 1];
+                      }
+                  });
     std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
     std::partial_sum(start.begin(), start.end(), start.begin());
     std::vector<std::uint32_t> who(pairs.size());
@@ -312,12 +195,16 @@ BondList::Rows renew_crumbled_neighbors(const NodalState &nodes,
       gather_crumbs(nodes, failure, mirror, reach, communicator), reach, nodes);
   BondList::Rows rows;
   rows.reserve(nodes.n_owned, bonds.capacity());
+  const std::vector<std::uint32_t> &marked = failure.marked_rows();
+  auto with_marks = marked.begin();
   std::vector<GlobalIndex> kept;
   for (std::size_t i = 0; i < nodes.n_owned; ++i)
   {
+    const bool has_marks = with_marks != marked.end() && *with_marks == i;
+    with_marks += has_marks;
     kept.clear();
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
-      if (!failure.has_failed_now(b) &&
+      if (!(has_marks && failure.has_failed_now(b)) &&
           failure.is_cohesive(i, bonds.neighbor[b]))
         kept.push_back(nodes.global_id[bonds.neighbor[b]]);
     rows.merge_and_end_row(kept, near.begin(i), near.end(i));

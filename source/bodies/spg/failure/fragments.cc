@@ -191,14 +191,15 @@ Fragment piece_of(const GlobalIndex label, const Sums &sums,
 }
 } // namespace
 
-std::vector<unsigned int>
-planes_crossed(const NodalState &nodes, const BondList &bonds,
-               const BondFailure &failure,
-               const std::vector<SymmetryPlane> &planes)
+std::vector<unsigned int> planes_of_particles(
+    const NodalState &nodes, const BondList &bonds, const BondFailure &failure,
+    const std::vector<SymmetryPlane> &planes, const double tolerance)
 {
-  std::vector<unsigned int> crossed(nodes.n_owned, 0);
+  std::vector<unsigned int> bits(nodes.n_owned);
+  for (std::size_t i = 0; i < nodes.n_owned; ++i)
+    bits[i] = planes_at(nodes.reference_position[i], planes, tolerance);
   const std::size_t first_image = nodes.size() - nodes.n_images;
-  for (std::size_t i = 0; i < nodes.n_owned && nodes.n_images > 0; ++i)
+  for (const std::uint32_t i : bonds.rows_at_ghosts())
     for (std::size_t b = bonds.begin(i); b < bonds.end(i); ++b)
     {
       const std::uint32_t j = bonds.neighbor[b];
@@ -211,17 +212,16 @@ planes_crossed(const NodalState &nodes, const BondList &bonds,
         if ((nodes.reference_position[i][d] - X) *
                 (nodes.reference_position[j][d] - X) <=
             0.)
-          crossed[i] |= 1u << p;
+          bits[i] |= 1u << p;
       }
     }
-  return crossed;
+  return bits;
 }
 
 std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const std::vector<GlobalIndex> &label,
-                                     const std::vector<unsigned int> &crossed,
+                                     const std::vector<unsigned int> &at_planes,
                                      const std::vector<SymmetryPlane> &planes,
-                                     const double tolerance,
                                      MPI_Comm communicator)
 {
   PieceSums all(label);
@@ -232,8 +232,7 @@ std::vector<Fragment> find_fragments(const NodalState &nodes,
       last = &all.of(label[i]);
     Sums &s = *last;
     ++s.n;
-    s.planes |=
-        crossed[i] | planes_at(nodes.reference_position[i], planes, tolerance);
+    s.planes |= at_planes[i];
     s.mass.add(nodes.lumped_mass[i]);
     for (int d = 0; d < 3; ++d)
       s.momentum[d].add(nodes.lumped_mass[i] * nodes.velocity[i][d]);

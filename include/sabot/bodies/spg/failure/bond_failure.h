@@ -119,6 +119,9 @@ public:
   /** Whether there are bonds between crumbled particles, which have to be found
       anew. Collective, the same on all ranks. */
   bool renews_crumbled(MPI_Comm communicator) const;
+  /** How often which bonds hold may have changed so far without the list of
+      bonds: metal crumbles. The same on all ranks. */
+  std::size_t n_changes() const { return changes; }
   /** Bonds of an owned particle that hold. */
   std::size_t n_holding(const BondList &bonds, const std::size_t i) const;
   /** Failed bonds of an owned particle over these and those that hold; 0 for a
@@ -177,6 +180,7 @@ private:
 
   std::unique_ptr<ParticleConduction> averaging; // only with a length
   bool joins_crumbled = false;
+  std::size_t changes = 0;
   std::vector<char> crumbles; // owned, by the last find()
   std::vector<char> crumbled; // owned and ghosts, see has_crumbled()
 };

@@ -26,26 +26,24 @@ std::vector<GlobalIndex> fragment_labels(const NodalState &nodes,
                                          const ParticleExchange &exchange,
                                          MPI_Comm communicator);
 
-/** Of each owned particle the @p planes, a bit each, across which bonds hold it
-    to images of particles. Local. */
-std::vector<unsigned int>
-planes_crossed(const NodalState &nodes, const BondList &bonds,
-               const BondFailure &failure,
-               const std::vector<SymmetryPlane> &planes);
+/** Of each owned particle the @p planes, a bit each, in which it lay at the
+    start, within @p tolerance [m], or across which bonds hold it to images of
+    particles. Local. */
+std::vector<unsigned int> planes_of_particles(
+    const NodalState &nodes, const BondList &bonds, const BondFailure &failure,
+    const std::vector<SymmetryPlane> &planes, const double tolerance);
 
 /** The pieces themselves, heaviest first; masses [kg] and momenta are exact
     sums, so they do not depend on the number of ranks. Collective, the same
     on all ranks. label: of the owned particles, see fragment_labels().
     Velocity is sum m v / sum m [m/s] with the lumped masses. A piece with a
-    particle that at the start lay within @p tolerance [m] of one of the
-    @p planes of symmetry, or that a bond holds to an image beyond it, goes on
-    there: twice the mass for each such plane, no velocity across it. @p
-    crossed: planes_crossed() of owned particles. */
+    particle of one of the @p planes of symmetry, @p at_planes as
+    planes_of_particles() has them, goes on beyond it: twice the mass for each
+    such plane, no velocity across it. */
 std::vector<Fragment> find_fragments(const NodalState &nodes,
                                      const std::vector<GlobalIndex> &label,
-                                     const std::vector<unsigned int> &crossed,
+                                     const std::vector<unsigned int> &at_planes,
                                      const std::vector<SymmetryPlane> &planes,
-                                     const double tolerance,
                                      MPI_Comm communicator);
 } // namespace sabot
 
