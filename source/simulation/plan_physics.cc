@@ -91,6 +91,7 @@ void judge_impact(const Scene &scene, PhysicsPlan &plan)
            ? "an equation of state changes the first wave by " +
                  text("about %.0f %%; what follows less", 150. * pressure / K)
            : "an equation of state is needed"});
+  judge_shocks(pressure, plan);
   if (pressure / K >= 0.3)
     for (const PlannedBody *const body : {&p, &t})
       if (body->facts.deforms && !body->facts.material->has_equation_of_state())

@@ -212,6 +212,40 @@ class Scenes(unittest.TestCase):
         done = sabot("plan", scene)
         self.assertNotIn("never yields, but its hourglass", done.stdout)
 
+    def test_shocks_that_shake_particles_and_what_bears_them(self):
+        scene = os.path.join(SOURCE, "tests/scenes/slabs.prm")
+        plan = ("that pressure over the bulk modulus of lower = 0.27",
+                'plane shocks above some 0.2 shake such particles; '
+                '"Normalized support size = 2.5" bears them')
+        told = ("against shocks that shake particles set \"Normalized support "
+                "size = 2.5\" or \"Approximation = convex exponential\"")
+        for entry, shakes in (
+                ("Title=as it is", True),
+                ("Normalized support size=2.5", False),
+                ("Approximation=convex exponential", False)):
+            settings = sum((["--set", entry if shakes else
+                             f"Bodies/{body}/{entry}"]
+                            for body in ("lower", "upper")), [])
+            out = folder("slabs")
+            done = sabot("run", scene, "-o", out, *settings)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            share = result(out)["bodies"]["lower"]["stabilization_over_internal"]
+            self.assertEqual(share > 0.1, shakes, entry)
+            if not shakes:
+                self.assertLess(share, 0.02, entry)
+            self.assertEqual(told in done.stdout, shakes, entry)
+            done = sabot("plan", scene, *settings)
+            for words in plan:
+                self.assertEqual(words in done.stdout, shakes, entry)
+
+    def test_what_failed_metal_has_of_the_stabilization_is_told(self):
+        done = sabot("run", os.path.join(SOURCE, "prm/penetration/coarse.prm"),
+                     "-o", folder("rubble"), "--set", "End time=6 us")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout,
+                         'stabilization energy of body "core" is .*; 9[0-9.]* '
+                         "% of it is in metal that has failed")
+
     def test_a_bar_is_driven_from_rest(self):
         scene = os.path.join(SOURCE, "tests/scenes/pulled.prm")
         out = folder("pulled")
