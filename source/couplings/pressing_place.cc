@@ -118,17 +118,28 @@ public:
   bool find_rectangle()
   {
     const double p = curved[1], q = curved[3], pq = 0.5 * (curved[2] - p - q),
-                 determinant = p * q - pq * pq, d = above.node.depth,
-                 mixed = std::max(0., -pq);
-    range[0] = where_positive(d + most_along(slope[3] + mixed, q), slope[1], p);
-    range[1] = where_positive(d + most_along(slope[1] + mixed, p), slope[3], q);
-    if (is_bent(1) && is_bent(3) && determinant > 0.01 * p * q)
+                 determinant = p * q - pq * pq, d = above.node.depth;
+    if (is_bent(1) && is_bent(3))
     {
+      range[0] = range[1] = Range();
+      if (!(determinant > 0.01 * p * q))
+        return true; // a twisted face: all of it
       const double xi = (q * slope[1] - pq * slope[3]) / determinant,
                    eta = (p * slope[3] - pq * slope[1]) / determinant,
                    most = d + 0.5 * (slope[1] * xi + slope[3] * eta);
       narrow(0, xi, most * q / determinant);
       narrow(1, eta, most * p / determinant);
+    }
+    else
+    {
+      // By the far corner, which need not be x[1] + x[3].
+      const double by_corner = slope[2] - 0.5 * curved[2] -
+                               (slope[1] - 0.5 * p) - (slope[3] - 0.5 * q),
+                   mixed = std::max({0., -pq, by_corner});
+      range[0] =
+          where_positive(d + most_along(slope[3] + mixed, q), slope[1], p);
+      range[1] =
+          where_positive(d + most_along(slope[1] + mixed, p), slope[3], q);
     }
     return !range[0].is_empty() && !range[1].is_empty();
   }
