@@ -120,7 +120,9 @@ void describe_quality(const Scene &scene, const ControlShares &shares,
     if (control.empty())
       continue;
     const double of_failed =
-        measures.control_in_failed / std::max(measures.control_energy, 1e-300);
+        measures.control_energy > 0.
+            ? measures.control_in_failed / measures.control_energy
+            : 0.;
     const std::string share = control + " energy of body \"" + body->name +
                               "\" is " + percent(shares.share(body->id)) +
                               " of its internal energy (largest of the run)";
