@@ -57,7 +57,7 @@ void judge_shocks(const double pressure, PhysicsPlan &plan)
           {"that pressure over the bulk modulus of " + body.name,
            "least-squares functions", shock,
            text("plane shocks above some %.3g shake such particles; ", most) +
-               (shock < 0.4
+               (shock < BodyFacts::wide_shock
                     ? "\"Normalized support size = 2.5\" bears them, as "
                       "\"Approximation = convex exponential\" does"
                     : "\"Approximation = convex exponential\" bears them")});

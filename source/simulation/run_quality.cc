@@ -41,7 +41,7 @@ std::string instead_of_stabilization(const BodyFacts &facts,
 {
   const std::string shocks =
       !facts.largest_shock ? "use finer particles"
-      : *facts.largest_shock < 0.3
+      : *facts.largest_shock < BodyFacts::wide_shock
           ? "against shocks that shake particles set \"Normalized support size "
             "= 2.5\" or \"Approximation = convex exponential\""
           : "against shocks that shake particles set \"Approximation = convex "

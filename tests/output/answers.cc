@@ -204,6 +204,7 @@ TEST_F(Answers, quantities_know_the_gauges_of_their_moment)
                             its = column("quantities", "now [m/s]"),
                             t_of_gauge = column("middle", "time [s]"),
                             v = column("middle", "velocity x [m/s]");
+  ASSERT_GT(t.size(), 2u);
   for (std::size_t r = 0, g = 0; r < t.size(); ++r)
   {
     while (g + 1 < t_of_gauge.size() && t_of_gauge[g + 1] <= t[r])

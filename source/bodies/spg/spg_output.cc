@@ -40,6 +40,7 @@ BodyMeasures SpgBody::measure() const
   const double *const stabilization_work = stabilization->work().data();
   internal.add(points.internal_energy.data(), n);
   stabilized.add(stabilization_work, n);
+  if (options.can_fail())
   {
     ExactTerms terms(of_failed);
     for (std::size_t i = 0; i < n; ++i)
@@ -109,12 +110,9 @@ BodyFacts SpgBody::facts() const
   facts.failure_strain =
       options.failure_criterion->critical_plastic_strain(points.law());
   if (!options.stores_gradients())
-  {
-    // Seen at 0.17 and 0.35 without shaking, at 0.22 and 0.47 with it.
-    constexpr double narrow = 0.2, wide = 0.4, wide_support = 2.5;
-    facts.largest_shock =
-        options.normalized_support < wide_support ? narrow : wide;
-  }
+    facts.largest_shock = options.normalized_support < BodyFacts::wide_support
+                              ? BodyFacts::narrow_shock
+                              : BodyFacts::wide_shock;
   return facts;
 }
 
